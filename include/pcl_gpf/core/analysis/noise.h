@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/views.h>
+
+namespace pcl_gpf {
+
+/** \brief Standard deviation of the noise along the surface normal, from the residuals of local plane and quadric fits at several
+ * scales; robust to edges and outliers through medians.
+ *
+ * \param[in] points in any one unit; the result is in the same
+ * \param[in] spacing of the points (estimateSpacing())
+ * \return 0 for fewer than 16 points
+ */
+PCL_GPF_CORE_EXPORT double
+estimateNoise(PointsView points, double spacing, unsigned number_of_threads = 0);
+
+} // namespace pcl_gpf

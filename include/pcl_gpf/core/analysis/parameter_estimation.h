@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/operators/bilateral_normals.h>
+#include <pcl_gpf/core/operators/gpf_parameters.h>
+#include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/views.h>
+
+#include <string>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** \brief What is known of a cloud before it is filtered, in the unit of its points. */
+struct CloudScale {
+  double spacing = 0;  ///< estimateSpacing()
+  double noise = 0;    ///< estimateNoise(), standard deviation along the normal
+  double diagonal = 0; ///< of the bounding box
+  double h0 = 0;       ///< the paper's unit, diagonal / sqrt(N)
+};
+
+/** \brief Measures a cloud. Cost: a fraction of one filter iteration. */
+PCL_GPF_CORE_EXPORT CloudScale
+measureScale(PointsView points, unsigned number_of_threads = 0);
+
+/** \brief Where the value of a parameter came from. */
+struct ParameterOrigin {
+  std::string name;   ///< field, for example "gpf.support_radius"
+  double value = 0;   ///< in the unit of the points
+  std::string origin; ///< "user", "estimated", "preset" or "default"
+  std::string reason; ///< one phrase, for example "12 x noise"
+};
+
+/** \brief Fills every parameter that is 0 = estimated from the scale of the cloud and tells why.
+ *
+ * Fields that are already set stay and are reported as "user".
+ */
+PCL_GPF_CORE_EXPORT std::vector<ParameterOrigin>
+estimateParameters(const CloudScale& scale,
+                   PlaneNormalsParameters& normals,
+                   BilateralNormalsParameters& bilateral,
+                   GPFParameters& gpf);
+
+} // namespace pcl_gpf

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/core/views.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+namespace pcl_gpf {
+
+/** \brief Owning array of trivial values, 64-byte aligned and readable for one full vector beyond its end.
+ *
+ * The padding lets a kernel load whole vectors without a tail loop; it holds zeros.
+ */
+template <typename T>
+class AlignedArray {
+  static_assert(std::is_trivially_copyable<T>::value, "AlignedArray holds plain values only");
+
+public:
+  static constexpr std::size_t kAlignment = 64;
+  static constexpr std::size_t kPadding = 64 / sizeof(T);
+
+  AlignedArray() = default;
+  explicit AlignedArray(std::size_t size, T value = T{}) { assign(size, value); }
+  AlignedArray(AlignedArray&& other) noexcept : data_(std::move(other.data_)), size_(other.size_) { other.size_ = 0; }
+  AlignedArray&
+  operator=(AlignedArray&& other) noexcept
+  {
+    data_ = std::move(other.data_);
+    size_ = other.size_;
+    other.size_ = 0;
+    return *this;
+  }
+
+  /** \brief Makes the array `size` long, every element `value`. \throws std::bad_alloc */
+  void
+  assign(std::size_t size, T value = T{})
+  {
+    const std::size_t padded = (size + 2 * kPadding - 1) / kPadding * kPadding;
+    if (size > static_cast<std::size_t>(-1) / sizeof(T) / 2)
+      throw std::bad_alloc();
+    data_.reset(static_cast<T*>(std::aligned_alloc(kAlignment, padded * sizeof(T))));
+    if (!data_)
+      throw std::bad_alloc();
+    size_ = size;
+    std::fill_n(data_.get(), size, value);
+    std::fill_n(data_.get() + size, padded - size, T{});
+  }
+
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T& operator[](std::size_t i) { return data_.get()[i]; }
+  const T& operator[](std::size_t i) const { return data_.get()[i]; }
+  T* begin() { return data_.get(); }
+  T* end() { return data_.get() + size_; }
+  const T* begin() const { return data_.get(); }
+  const T* end() const { return data_.get() + size_; }
+
+private:
+  struct Free {
+    void operator()(T* p) const { std::free(p); }
+  };
+  std::unique_ptr<T[], Free> data_;
+  std::size_t size_ = 0;
+};
+
+/** \brief Owning storage behind a VectorsView: three AlignedArrays of floats. */
+struct SoaBuffer {
+  AlignedArray<float> x, y, z;
+
+  SoaBuffer() = default;
+  explicit SoaBuffer(std::size_t size) : x(size), y(size), z(size) {}
+
+  std::size_t size() const { return x.size(); }
+  VectorsView view() const { return {x.data(), y.data(), z.data(), size()}; }
+  MutableVectorsView view() { return {x.data(), y.data(), z.data(), size()}; }
+};
+
+} // namespace pcl_gpf

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/common/export.h>
+#include <pcl_gpf/core/analysis/parameter_estimation.h>
+#include <pcl_gpf/core/iteration.h>
+#include <pcl_gpf/core/operators/bilateral_normals.h>
+#include <pcl_gpf/core/operators/gpf_parameters.h>
+#include <pcl_gpf/core/operators/plane_normals.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** \brief Parameters of the chain plane normals -> bilateral normal filter -> GPF; 0 = estimated, lengths in cloud units. */
+struct DenoiseParameters {
+  PlaneNormalsParameters normals;
+  BilateralNormalsParameters bilateral;
+  GPFParameters gpf;
+  unsigned number_of_threads = 0; ///< for all three; 0 = all that the process may use
+};
+
+/** \brief Coordinates in double, N values each, any may be NaN; and normals, N floats each or empty. */
+struct DenoiseInput {
+  const double* x = nullptr;
+  const double* y = nullptr;
+  const double* z = nullptr;
+  std::size_t size = 0;
+  const float* normal_x = nullptr; ///< null: normals are estimated; zero and NaN normals are estimated one by one
+  const float* normal_y = nullptr;
+  const float* normal_z = nullptr;
+};
+
+/** \brief Filtered points, as many as there are samples; coordinates in double, in the frame and unit of the input. */
+struct DenoiseResult {
+  std::vector<double> x, y, z;
+  std::vector<float> normal_x, normal_y, normal_z;
+  std::vector<std::uint32_t> sample_indices; ///< row of the input that seeded each output point, ascending
+  std::vector<std::uint8_t> isolated;        ///< 1 = no data in reach, point left where it was
+
+  CloudScale scale;                          ///< of the input, cloud units
+  std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units
+  std::vector<IterationStats> iterations;    ///< of GPF; variance in the normalised frame, movements in cloud units
+  std::size_t non_finite_points = 0;
+  std::size_t estimated_normals = 0;         ///< normals that the input did not have
+  double seconds_normals = 0;
+  double seconds_bilateral = 0;
+  double seconds_filter = 0;
+};
+
+/** \brief Called with the stage ("normals", "bilateral", "filter") and its fraction done; return false to cancel. */
+using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
+
+/** \brief Filters a cloud given in double coordinates, every finite point by default; rows that are not finite are left out.
+ *
+ * A point that nothing moves keeps its coordinates to the last bit.
+ * \throws InvalidParameter, UnsuitableData (nothing finite, all points identical), ExcessiveWork, Cancelled
+ * Thread safety: free function without shared state.
+ */
+PCL_GPF_EXPORT DenoiseResult
+denoise(const DenoiseInput& input, const DenoiseParameters& parameters, const StageProgress& progress = {});
+
+/** \brief Only the first two steps: a unit normal for every finite point (NaN elsewhere), one per input row. */
+PCL_GPF_EXPORT DenoiseResult
+denoiseNormals(const DenoiseInput& input, const DenoiseParameters& parameters, const StageProgress& progress = {});
+
+} // namespace pcl_gpf
