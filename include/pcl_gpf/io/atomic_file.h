@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "pcl_gpf/common/export.h"
+
 namespace pcl_gpf {
 
 /** \brief Tells before any computation whether \a path can be written: the folder exists and is writable, the target is
@@ -11,7 +13,7 @@ namespace pcl_gpf {
  * \param path a file, or "-" (standard output, always accepted)
  * \throws IoError (kind Unwritable)
  */
-void checkWritable(const std::string& path, bool overwrite);
+PCL_GPF_EXPORT void checkWritable(const std::string& path, bool overwrite);
 
 /** \brief A file that appears under its name only when it is complete and on the disk.
  *
@@ -23,7 +25,7 @@ void checkWritable(const std::string& path, bool overwrite);
  * After SIGKILL or a power cut at most one temporary file is left, never a partial target.
  * Thread safety: different objects may be used in different threads.
  */
-class AtomicFile {
+class PCL_GPF_EXPORT AtomicFile {
 public:
   /** \throws IoError (kind Unwritable), as all members here */
   AtomicFile(const std::string& path, bool overwrite);
@@ -53,6 +55,6 @@ private:
  * removed, then the signal takes its default course (exit by signal). A signal that was ignored stays ignored.
  * SIGXFSZ is ignored, so that a file size limit is an IoError. At most 64 files are open at a time.
  */
-void installSignalCleanup();
+PCL_GPF_EXPORT void installSignalCleanup();
 
 }  // namespace pcl_gpf

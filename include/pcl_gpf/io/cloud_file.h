@@ -7,20 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "pcl_gpf/common/export.h"
+
 namespace pcl_gpf {
 
 enum class FieldType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
 /** \brief Bytes of one element: 1, 2, 4 or 8. */
-std::size_t sizeOf(FieldType type) noexcept;
+PCL_GPF_EXPORT std::size_t sizeOf(FieldType type) noexcept;
 
 /** \brief "int8" ... "float64", for messages and listings. */
-const char* nameOf(FieldType type) noexcept;
+PCL_GPF_EXPORT const char* nameOf(FieldType type) noexcept;
 
 enum class CloudFormat { PcdAscii, PcdBinary, PcdCompressed, PlyAscii, PlyLittleEndian, PlyBigEndian, Xyz };
 
 /** \brief "PCD ascii" ... "XYZ text", for messages and listings. */
-const char* nameOf(CloudFormat format) noexcept;
+PCL_GPF_EXPORT const char* nameOf(CloudFormat format) noexcept;
 
 /** \brief One named column of a cloud: \a count elements of one type at byte \a offset of every row. */
 struct CloudField {
@@ -42,7 +44,7 @@ struct CloudCoordinates {
  * in a cloud that was read; they may have any numeric type. Reading and writing convert names and colours.
  * Memory: size() * pointStep() bytes. Thread safety: as a standard container.
  */
-class CloudFile {
+class PCL_GPF_EXPORT CloudFile {
 public:
   std::uint32_t width = 0;   ///< points per row of an organised cloud, else all points
   std::uint32_t height = 1;  ///< rows of an organised cloud, else 1

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "pcl_gpf/common/export.h"
+
 namespace pcl_gpf {
 
 /** \brief Which side of the input/output layer failed (a tool maps this to its exit code). */
@@ -14,7 +16,7 @@ enum class IoErrorKind { Unreadable, Unwritable };
  * what() reads "FILE: PLACE: expected PROMISED, found FOUND"; PLACE is a line ("line 12", counted from 1) or a byte
  * ("byte 300", counted from 0) of the file, and may be missing. Control characters are written as \\xNN.
  */
-class IoError : public std::runtime_error {
+class PCL_GPF_EXPORT IoError : public std::runtime_error {
 public:
   /** \param kind     reading or writing
    *  \param path     the file as the caller named it
@@ -36,6 +38,6 @@ private:
 };
 
 /** \brief Text fit for a message: control characters as \\xNN, at most \a limit bytes, then "...". */
-std::string printable(const std::string& text, std::size_t limit = 60);
+PCL_GPF_EXPORT std::string printable(const std::string& text, std::size_t limit = 60);
 
 }  // namespace pcl_gpf

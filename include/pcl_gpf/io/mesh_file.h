@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "pcl_gpf/common/export.h"
+
 namespace pcl_gpf {
 
 /** \brief Triangles over shared vertices. */
@@ -25,9 +27,9 @@ struct TriangleMesh {
  * be there.
  * \throws IoError (kind Unreadable), std::bad_alloc
  */
-TriangleMesh readMesh(const std::string& path);
+PCL_GPF_EXPORT TriangleMesh readMesh(const std::string& path);
 
 /** \brief The same from memory. \param name stands for the path in messages, and its extension allows OBJ. */
-TriangleMesh readMeshBuffer(const unsigned char* data, std::size_t size, const std::string& name);
+PCL_GPF_EXPORT TriangleMesh readMeshBuffer(const unsigned char* data, std::size_t size, const std::string& name);
 
 }  // namespace pcl_gpf

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "pcl_gpf/common/export.h"
 #include "pcl_gpf/io/cloud_file.h"
 
 namespace pcl_gpf {
@@ -28,9 +29,9 @@ namespace pcl_gpf {
  * Memory: the file's bytes plus the cloud's while reading; the cloud is at most 12 times the file
  * (compressed: 88 times, the most that LZF can shrink). Cost: one pass.
  */
-CloudFile readCloud(const std::string& path);
+PCL_GPF_EXPORT CloudFile readCloud(const std::string& path);
 
 /** \brief The same from memory. \param name stands for the path in messages, and its extension allows XYZ text. */
-CloudFile readCloudBuffer(const unsigned char* data, std::size_t size, const std::string& name);
+PCL_GPF_EXPORT CloudFile readCloudBuffer(const unsigned char* data, std::size_t size, const std::string& name);
 
 }  // namespace pcl_gpf

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "pcl_gpf/common/export.h"
+#include "pcl_gpf/io/atomic_file.h"  // checkWritable()
 #include "pcl_gpf/io/cloud_file.h"
 
 namespace pcl_gpf {
@@ -28,20 +30,18 @@ struct WriteOptions {
  * \throws IoError (kind Unwritable): checkWritable(), a full disk, or checkFits()
  * \throws std::invalid_argument when the cloud has no x, y or z, or data does not hold size() rows
  */
-void writeCloud(const CloudFile& cloud, const std::string& path, const WriteOptions& options = {});
+PCL_GPF_EXPORT void writeCloud(const CloudFile& cloud, const std::string& path, const WriteOptions& options = {});
 
 /** \brief The format for a path's extension (.pcd .ply .xyz .txt .asc .pts, any case), text or binary as the cloud was
  * read; the very format it was read in where the extension allows it and for "-".
  * \throws IoError (kind Unwritable) on another extension
  */
-CloudFormat formatForPath(const std::string& path, const CloudFile& cloud);
+PCL_GPF_EXPORT CloudFormat formatForPath(const std::string& path, const CloudFile& cloud);
 
 /** \brief Fails when the format cannot hold the cloud: a 64-bit integer above 2^53 in PLY, more than 4 GiB in PCD
  * compressed, more than 1000 columns. O(points) for 64-bit fields in PLY, else O(fields).
  * \throws IoError (kind Unwritable)
  */
-void checkFits(const CloudFile& cloud, CloudFormat format, const std::string& path);
+PCL_GPF_EXPORT void checkFits(const CloudFile& cloud, CloudFormat format, const std::string& path);
 
 }  // namespace pcl_gpf
-
-#include "pcl_gpf/io/atomic_file.h"  // checkWritable()
