@@ -4,7 +4,6 @@
 #include <pcl_gpf/core/export.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 
 namespace pcl_gpf {
@@ -24,9 +23,5 @@ parallelBlocks(std::size_t count,
                std::size_t block,
                std::size_t threads,
                const std::function<void(std::size_t begin, std::size_t end)>& body);
-
-/** \brief Stable sort of `count` keys with their values, ascending by key; equal keys keep their order. */
-PCL_GPF_CORE_EXPORT void
-parallelSortByKey(std::size_t count, std::uint64_t* keys, std::uint32_t* values, std::size_t threads);
 
 } // namespace pcl_gpf

@@ -16,6 +16,8 @@ namespace pcl_gpf {
 /** \brief What the GPF operator works on. Everything is copied by gpfInit(). */
 struct GPFInput {
   PointsView points;                  ///< V: N finite positions in the normalised frame (LocalFrame)
+  PointsView remainders;              ///< optional (null pointers: 0): what rounding `points` to float cut off; used by the paper's
+                                      ///< recursion, which runs in double
   NormalsView normals;                ///< b_n: N unit vectors, sign free
   const std::uint32_t* samples = nullptr; ///< seeds of X^0 as indices into V; null = every point, in order
   std::size_t sample_count = 0;       ///< M when `samples` is given
@@ -36,9 +38,13 @@ public:
   /** \brief M, the number of projected points. */
   std::size_t
   size() const;
-  /** \brief Writes X^k in the order of the samples given to gpfInit(). */
+  /** \brief Writes X^k in the order of the samples given to gpfInit(), rounded to float. */
   void
   positions(MutableVectorsView out) const;
+  /** \brief Writes X^k - X^0 in the same order: add it to the seed's own coordinates, so that nothing is lost to rounding and a
+   * point that was not moved keeps its last bit. */
+  void
+  displacements(MutableVectorsView out) const;
   /** \brief Writes the normals of X in the same order (their seeds' normals). */
   void
   normals(MutableVectorsView out) const;

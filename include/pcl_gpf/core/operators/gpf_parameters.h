@@ -63,6 +63,10 @@ struct GPFParameters {
    * 1 = the paper. 0: points next to an edge are never drawn onto it. */
   double normal_weight_floor = 0.15;
 
+  /** Project the repulsion on the sample's own tangent plane too, and leave it out of the last three iterations: otherwise points near
+   * a sharp edge are pushed along the other face into the air. False: eq. 10 as printed. */
+  bool own_tangent_repulsion = true;
+
   /** Share of input points that seed X^0, 0 < ratio <= 1; 1 keeps every point in order. */
   double sample_ratio = 1.0;
 

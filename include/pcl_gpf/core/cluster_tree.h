@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/views.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** \brief Order of points along a Hilbert curve through their bounding box, as indices; ties keep index order.
+ *
+ * Consecutive points are near each other, so that runs of them are small patches of the surface. Cost: O(N), one radix sort.
+ */
+PCL_GPF_CORE_EXPORT std::vector<std::uint32_t>
+hilbertOrder(PointsView points, std::size_t threads);
+
+/** \brief Axis-aligned box in float; empty when min > max. */
+struct FloatBox {
+  std::array<float, 3> min;
+  std::array<float, 3> max;
+};
+
+/** \brief Consecutive points [begin, end) of a sorted array. */
+struct Run {
+  std::uint32_t begin;
+  std::uint32_t end;
+};
+
+/** \brief Bounding boxes over points in Hilbert order: clusters of 8 points, and an implicit tree of 8 children above them.
+ *
+ * Plays the part of a uniform grid in the fixed-radius sums, without its weak spots: no cell size to choose, no memory for empty
+ * space however far an outlier lies, short candidate lists on uneven density; and fit() follows points that move without sorting.
+ * Memory: about 4 bytes a point. Queries are const and may run concurrently.
+ */
+class PCL_GPF_CORE_EXPORT ClusterTree {
+public:
+  static constexpr std::size_t kClusterSize = 8;
+  static constexpr std::size_t kFanout = 8;
+
+  /** \brief Computes all boxes from positions in sorted order. Positions may have been moved since they were sorted: results stay
+   * exact, only candidate lists grow. */
+  void
+  fit(PointsView sorted, std::size_t threads);
+
+  /** \brief Appends the runs of points whose cluster boxes come within `radius` of `box`, ascending, adjacent runs merged. */
+  void
+  collectRuns(const FloatBox& box, float radius, std::vector<Run>& runs) const;
+
+  /** \brief Squared distances of the k nearest points of `sorted` (as given to fit()) to a position, ascending; fewer if the
+   * tree has fewer points. `indices`, when not null, receives their sorted positions. Ties: any. */
+  void
+  nearest(PointsView sorted,
+          const std::array<float, 3>& query,
+          std::size_t k,
+          std::vector<float>& distances_sq,
+          std::vector<std::uint32_t>* indices = nullptr) const;
+
+  std::size_t
+  size() const
+  {
+    return size_;
+  }
+  /** \brief Box of all points. */
+  FloatBox
+  bounds() const;
+
+private:
+  /** Boxes of the 8 children of one node, structure of arrays so that one comparison tests all. */
+  struct Pack {
+    float min[3][kFanout];
+    float max[3][kFanout];
+  };
+  using Level = std::vector<Pack>;
+
+  void
+  descend(std::size_t level, std::size_t pack, const FloatBox& box, float radius_sq, std::vector<Run>& runs) const;
+
+  std::vector<Level> levels_; ///< levels_[0]: boxes of clusters; the last level has one pack
+  std::size_t size_ = 0;
+};
+
+} // namespace pcl_gpf

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/analysis/noise.h>
+#include <pcl_gpf/core/analysis/parameter_estimation.h>
+#include <pcl_gpf/core/analysis/spacing.h>
+#include <pcl_gpf/core/local_frame.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_gpf {
+
+namespace {
+
+/** The larger of `noises` times the noise and `spacings` times the spacing, and which of the two it was. */
+ParameterOrigin
+lengthFromScale(const char* name, const CloudScale& scale, double noises, const char* noise_reason, double spacings,
+                const char* spacing_reason)
+{
+  const bool noisy = noises * scale.noise > spacings * scale.spacing;
+  return {name, noisy ? noises * scale.noise : spacings * scale.spacing, "estimated", noisy ? noise_reason : spacing_reason};
+}
+
+void
+fill(double& value, ParameterOrigin estimate, std::vector<ParameterOrigin>& origins)
+{
+  if (value > 0.0)
+    estimate = {estimate.name, value, "user", ""};
+  value = estimate.value;
+  origins.push_back(std::move(estimate));
+}
+
+} // namespace
+
+CloudScale
+measureScale(PointsView points, unsigned number_of_threads)
+{
+  CloudScale scale;
+  BoundingBox box;
+  for (std::size_t i = 0; i < points.size; ++i)
+    box.add(points.x[i], points.y[i], points.z[i]);
+  scale.diagonal = box.diagonal();
+  scale.h0 = points.size > 0 ? scale.diagonal / std::sqrt(static_cast<double>(points.size)) : 0.0;
+  scale.spacing = estimateSpacing(points, number_of_threads);
+  scale.noise = estimateNoise(points, scale.spacing, number_of_threads);
+  return scale;
+}
+
+std::vector<ParameterOrigin>
+estimateParameters(const CloudScale& scale, PlaneNormalsParameters& normals, BilateralNormalsParameters& bilateral,
+                   GPFParameters& gpf)
+{
+  std::vector<ParameterOrigin> origins;
+  fill(normals.radius, lengthFromScale("normals.radius", scale, 4.0, "4 x noise", 3.0, "3 x spacing"), origins);
+  if (bilateral.neighbors == 0)
+    fill(bilateral.radius, lengthFromScale("bilateral.radius", scale, 6.0, "6 x noise", 4.0, "4 x spacing"), origins);
+  const bool paper = gpf.variance_update == VarianceUpdate::Paper && gpf.posterior_normalization;
+  if (paper)
+    fill(gpf.support_radius, {"gpf.support_radius", 8.0 * scale.h0, "preset", "8 x h0, within the paper's 3 .. 12"}, origins);
+  else
+    fill(gpf.support_radius, lengthFromScale("gpf.support_radius", scale, 12.0, "12 x noise", 7.0, "7 x spacing"), origins);
+  return origins;
+}
+
+} // namespace pcl_gpf

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/analysis/spacing.h>
+#include <pcl_gpf/core/parallel.h>
+
+#include "../sorted_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr std::size_t kMostProbes = 4096;
+constexpr std::size_t kNeighbor = 16;
+constexpr double kPi = 3.14159265358979323846;
+
+} // namespace
+
+double
+estimateSpacing(PointsView points, unsigned number_of_threads)
+{
+  if (points.size < 2)
+    return 0.0;
+  const std::size_t threads = resolveThreads(number_of_threads);
+  const SortedVectors<float> sorted = gather<float>(points, {}, hilbertOrder(points, threads), kFarAway);
+  SoaBuffer unused;
+  const PointsView view = sorted.floatView(unused);
+  ClusterTree tree;
+  tree.fit(view, threads);
+
+  const std::size_t neighbor = std::min(kNeighbor, points.size - 1);
+  const std::size_t probes = std::min(kMostProbes, points.size);
+  std::vector<float> distances_sq(probes);
+  parallelBlocks(probes, 64, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> nearest_sq;
+    for (std::size_t probe = begin; probe < end; ++probe) {
+      const std::size_t i = probe * points.size / probes; // even steps along the curve: even over the surface
+      tree.nearest(view, {view.x[i], view.y[i], view.z[i]}, neighbor + 1, nearest_sq);
+      distances_sq[probe] = nearest_sq.back();
+    }
+  });
+  // Duplicates have no spacing; the median is taken over points that have neighbours elsewhere.
+  distances_sq.erase(std::remove(distances_sq.begin(), distances_sq.end(), 0.0f), distances_sq.end());
+  if (distances_sq.empty())
+    return 0.0;
+  const auto middle = distances_sq.begin() + static_cast<std::ptrdiff_t>(distances_sq.size() / 2);
+  std::nth_element(distances_sq.begin(), middle, distances_sq.end());
+  return std::sqrt(*middle * kPi / static_cast<double>(neighbor));
+}
+
+} // namespace pcl_gpf

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "../neighborhoods.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pcl_gpf {
+
+/** What the wide loops see: raw pointers and numbers only. Every array of queries is padded to a multiple of 16; every array of data
+ * has at least one padded element, whose position is far beyond any radius. */
+namespace kernels {
+
+template <typename Real>
+struct Vectors {
+  const Real* x = nullptr;
+  const Real* y = nullptr;
+  const Real* z = nullptr;
+};
+
+template <typename Real>
+struct MutableVectors {
+  Real* x = nullptr;
+  Real* y = nullptr;
+  Real* z = nullptr;
+
+  operator Vectors<Real>() const { return {x, y, z}; }
+};
+
+/** Radius of the open ball: one for all, or one a query. */
+template <typename Real>
+struct Radius {
+  Real radius_sq = 0;
+  const Real* per_query = nullptr;
+};
+
+/** out[q] = sum over data in reach of exp(-falloff r^2 / radius^2). Eq. 3's denominators, rho and w. */
+template <typename Real>
+struct GaussianSums {
+  Vectors<Real> queries, data;
+  Radius<Real> radius;
+  Real falloff = 0;
+  Real* out = nullptr;
+};
+
+/** Sums of eqs. 10 and 11 over the data in reach of each query; weight = posterior / density, posterior = exp(-falloff r^2 /
+ * radius^2) * data_weight, d = v_n - x_m. */
+template <typename Real>
+struct Projection {
+  Vectors<Real> queries, query_normals, data, data_normals;
+  Radius<Real> radius;
+  Real falloff = 0;
+  bool symmetric = false;          ///< DataTerm::Symmetric
+  Real symmetry_falloff = 0;       ///< 1 / (1 - cos angle) of the share that the query's own plane gets
+  bool normal_weights = false;
+  Real normal_falloff = 0;         ///< 1 / (1 - cos normal_angle)
+  Real normal_floor = 0;
+  const Real* data_weight = nullptr;  ///< 1 / denominator of eq. 3; null with density null: all 1
+  const Real* data_density = nullptr; ///< 1 / rho
+  Real* weight_sum = nullptr;         ///< sum of weights
+  MutableVectors<Real> pull;          ///< sum of weight * (d.n) n
+  bool variance = false;              ///< also the sums of eq. 11; needs data_weight
+  Real* posterior_sum = nullptr;
+  Real* residual_sq = nullptr;        ///< sum of posterior (d.b)^2
+  MutableVectors<Real> cross;         ///< sum of posterior (d.b) b
+  MutableVectors<Real> scatter_diagonal; ///< sum of posterior b b^T: xx yy zz
+  MutableVectors<Real> scatter_mixed;    ///< yz xz xy
+};
+
+/** Sums of the repulsion of eq. 10: push = sum of w theta(r) t / r, weight_sum = sum of w theta(r) / r with t = (I - b b^T) d, r = |t|. */
+template <typename Real>
+struct Repulsion {
+  Vectors<Real> queries, data, data_normals;
+  Radius<Real> radius;
+  Real falloff = 0;          ///< theta(r) = exp(-falloff r^2 / radius^2)
+  Real shortest = 0;         ///< r is taken as at least this in the division
+  const Real* data_weight = nullptr; ///< w; null: 1
+  MutableVectors<Real> push;
+  Real* weight_sum = nullptr;
+};
+
+/** One round of the bilateral normal filter: out = sum of theta psi n (not normalised). */
+struct BilateralNormals {
+  Vectors<float> queries, query_normals, data, data_normals;
+  Radius<float> radius;
+  float falloff = 1;       ///< theta(r) = exp(-falloff r^2 / radius^2)
+  float angle_falloff = 0; ///< 1 / (1 - cos sigma_n)
+  bool sign_invariant = true;
+  MutableVectors<float> out;
+};
+
+/** Moments of the data in reach relative to the query: count, sum of d, sum of d d^T. */
+struct Moments {
+  Vectors<float> queries, data;
+  Radius<float> radius;
+  float* count = nullptr;
+  MutableVectors<float> mean;             ///< sum of d
+  MutableVectors<float> scatter_diagonal; ///< xx yy zz
+  MutableVectors<float> scatter_mixed;    ///< yz xz xy
+};
+
+/** Candidates of the blocks, as in Neighborhoods. */
+struct Candidates {
+  const std::size_t* run_offsets = nullptr;
+  const Run* runs = nullptr;
+  const std::size_t* lane_offsets = nullptr; ///< not null: foreign lists
+  const std::int32_t* lanes = nullptr;
+};
+
+/** The loops of one instruction set; each works on the query blocks [begin, end). */
+struct KernelSet {
+  void (*gaussian_sums_float)(const Candidates&, const GaussianSums<float>&, std::size_t begin, std::size_t end);
+  void (*gaussian_sums_double)(const Candidates&, const GaussianSums<double>&, std::size_t begin, std::size_t end);
+  void (*projection_float)(const Candidates&, const Projection<float>&, std::size_t begin, std::size_t end);
+  void (*projection_double)(const Candidates&, const Projection<double>&, std::size_t begin, std::size_t end);
+  void (*repulsion_float)(const Candidates&, const Repulsion<float>&, std::size_t begin, std::size_t end);
+  void (*repulsion_double)(const Candidates&, const Repulsion<double>&, std::size_t begin, std::size_t end);
+  void (*bilateral_normals)(const Candidates&, const BilateralNormals&, std::size_t begin, std::size_t end);
+  void (*moments)(const Candidates&, const Moments&, std::size_t begin, std::size_t end);
+};
+
+/** An instruction set that this build has. */
+struct KernelTarget {
+  const char* name;
+  std::int64_t bit; ///< Highway's
+  const KernelSet* set;
+};
+
+/** All that this build has, best first. */
+const KernelTarget*
+builtTargets(std::size_t* count);
+
+/** The active set (simd.cpp). */
+const KernelSet&
+active();
+
+} // namespace kernels
+} // namespace pcl_gpf

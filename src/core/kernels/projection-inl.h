@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#if defined(PCL_GPF_PROJECTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PCL_GPF_PROJECTION_INL_H_
+#undef PCL_GPF_PROJECTION_INL_H_
+#else
+#define PCL_GPF_PROJECTION_INL_H_
+#endif
+
+#include "pair_loop-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_gpf {
+namespace kernels {
+namespace HWY_NAMESPACE {
+
+/** Data term of eq. 10. The residual of eq. 11 after the move delta is a quadratic form in it,
+ * sum p ((d - delta).b)^2 = sum p (d.b)^2 - 2 delta.sum p (d.b) b + delta^T (sum p b b^T) delta, so one visit serves both. */
+template <class D, bool kSymmetric, bool kNormalWeights, bool kWeighted, bool kVariance>
+struct ProjectionSum {
+  using Real = hn::TFromD<D>;
+  using V = hn::Vec<D>;
+  const Projection<Real>& a;
+  D d;
+  std::size_t first;
+  Lanes3<D> query, query_normal;
+  V radius_sq, scale, weight_sum, own_pull;
+  Lanes3<D> pull;
+  V posterior_sum, residual_sq;
+  Lanes3<D> cross, diagonal, mixed;
+
+  HWY_INLINE
+  ProjectionSum(const Projection<Real>& arguments, D tag, std::size_t q)
+  : a(arguments)
+  , d(tag)
+  , first(q)
+  , query(loadQueries(tag, arguments.queries, q))
+  , query_normal(loadQueries(tag, arguments.query_normals, q))
+  , radius_sq(loadRadiusSq(tag, arguments.radius, q))
+  , scale(hn::Div(hn::Set(tag, -arguments.falloff), radius_sq))
+  , weight_sum(hn::Zero(tag))
+  , own_pull(hn::Zero(tag))
+  , pull(zero3(tag))
+  , posterior_sum(hn::Zero(tag))
+  , residual_sq(hn::Zero(tag))
+  , cross(zero3(tag))
+  , diagonal(zero3(tag))
+  , mixed(zero3(tag))
+  {}
+
+  template <class Datum>
+  HWY_INLINE void
+  pair(Datum datum)
+  {
+    const Lanes3<D> offset = minus<D>(loadDatum(d, a.data, datum), query);
+    const V distance_sq = dot<D>(offset, offset);
+    const auto inside = hn::Lt(distance_sq, radius_sq);
+    if (hn::AllFalse(d, inside))
+      return;
+    const Lanes3<D> normal = loadDatum(d, a.data_normals, datum);
+    const V height = dot<D>(offset, normal);
+    V weight = hn::IfThenElseZero(inside, expNonPositive(d, hn::Mul(distance_sq, scale)));
+    if (kWeighted)
+      weight = hn::Mul(weight, datum(d, a.data_weight));
+    if (kVariance)
+      addVariance(weight, height, normal);
+    if (kWeighted)
+      weight = hn::Mul(weight, datum(d, a.data_density));
+    if (kSymmetric || kNormalWeights)
+      addAnisotropic(weight, height, offset, normal);
+    else {
+      weight_sum = hn::Add(weight_sum, weight);
+      addScaled<D>(pull, hn::Mul(weight, height), normal);
+    }
+  }
+
+  HWY_INLINE void
+  addAnisotropic(V weight, V height, const Lanes3<D>& offset, const Lanes3<D>& normal)
+  {
+    const V one = hn::Set(d, Real(1));
+    const V deviation = hn::Sub(one, hn::Abs(dot<D>(normal, query_normal))); // 1 - cos of the angle between the planes
+    if (kNormalWeights) {
+      const V floor = hn::Set(d, a.normal_floor);
+      weight = hn::Mul(weight, mulAdd(hn::Sub(one, floor), bell(d, hn::Mul(deviation, hn::Set(d, a.normal_falloff))), floor));
+    }
+    weight_sum = hn::Add(weight_sum, weight);
+    if (kSymmetric) {
+      // ((d.b_n) b_n + s (d.b_x) b_x) / (1 + s): the two errors cancel on a curved surface; s falls to 0 across an edge.
+      const V share = bell(d, hn::Mul(deviation, hn::Set(d, a.symmetry_falloff)));
+      weight = hn::Div(weight, hn::Add(one, share));
+      own_pull = mulAdd(hn::Mul(weight, share), dot<D>(offset, query_normal), own_pull);
+    }
+    addScaled<D>(pull, hn::Mul(weight, height), normal);
+  }
+
+  HWY_INLINE void
+  addVariance(V posterior, V height, const Lanes3<D>& n)
+  {
+    posterior_sum = hn::Add(posterior_sum, posterior);
+    const V weighted_height = hn::Mul(posterior, height);
+    residual_sq = mulAdd(weighted_height, height, residual_sq);
+    addScaled<D>(cross, weighted_height, n);
+    const Lanes3<D> weighted = {hn::Mul(posterior, n.x), hn::Mul(posterior, n.y), hn::Mul(posterior, n.z)};
+    diagonal = {mulAdd(weighted.x, n.x, diagonal.x), mulAdd(weighted.y, n.y, diagonal.y), mulAdd(weighted.z, n.z, diagonal.z)};
+    mixed = {mulAdd(weighted.y, n.z, mixed.x), mulAdd(weighted.x, n.z, mixed.y), mulAdd(weighted.x, n.y, mixed.z)};
+  }
+
+  HWY_INLINE void
+  store()
+  {
+    if (kSymmetric)
+      addScaled<D>(pull, own_pull, query_normal);
+    hn::StoreU(weight_sum, d, a.weight_sum + first);
+    storeQueries(d, a.pull, first, pull);
+    if (kVariance) {
+      hn::StoreU(posterior_sum, d, a.posterior_sum + first);
+      hn::StoreU(residual_sq, d, a.residual_sq + first);
+      storeQueries(d, a.cross, first, cross);
+      storeQueries(d, a.scatter_diagonal, first, diagonal);
+      storeQueries(d, a.scatter_mixed, first, mixed);
+    }
+  }
+};
+
+} // namespace HWY_NAMESPACE
+} // namespace kernels
+} // namespace pcl_gpf
+HWY_AFTER_NAMESPACE();
+
+#endif

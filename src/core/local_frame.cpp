@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/local_frame.h>
+
+#include <cmath>
+
+namespace pcl_gpf {
+
+double
+BoundingBox::diagonal() const
+{
+  return count == 0 ? 0.0 : std::hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
+}
+
+LocalFrame
+localFrame(const BoundingBox& box)
+{
+  LocalFrame frame;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    frame.origin[axis] = box.min[axis] + 0.5 * (box.max[axis] - box.min[axis]);
+  const double diagonal = box.diagonal();
+  if (diagonal > 0.0)
+    frame.scale = diagonal;
+  return frame;
+}
+
+} // namespace pcl_gpf

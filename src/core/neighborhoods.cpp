@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighborhoods.h"
+
+#include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr std::size_t kBlocksPerTask = 256;
+/** Work beyond this many candidate pairs an iteration, and this many a point, is taken for a mistaken radius. */
+constexpr double kMostCandidatePairs = 2e10;
+constexpr double kManyCandidates = 20000.0;
+constexpr std::size_t kProbes = 256;
+/** Rough cost of a candidate pair, only used to put a figure into the refusal. */
+constexpr double kSecondsPerCandidate = 1e-9;
+
+FloatBox
+blockBox(PointsView queries, std::size_t block)
+{
+  const std::size_t begin = block * kQueryBlock;
+  const std::size_t end = std::min(queries.size, begin + kQueryBlock);
+  FloatBox box;
+  const float* axes[3] = {queries.x, queries.y, queries.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto range = std::minmax_element(axes[axis] + begin, axes[axis] + end);
+    box.min[axis] = *range.first;
+    box.max[axis] = *range.second;
+  }
+  return box;
+}
+
+/** A hair more than the radius: boxes are rounded to float, kernels may work in double. */
+float
+reach(double radius)
+{
+  return static_cast<float>(radius * (1.0 + 1e-5) + 1e-6);
+}
+
+template <typename RadiusOfBlock>
+void
+refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
+{
+  const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
+  const std::size_t stride = std::max<std::size_t>(1, blocks / kProbes);
+  double candidates = 0.0;
+  std::size_t probes = 0;
+  std::vector<Run> runs;
+  for (std::size_t block = 0; block < blocks; block += stride, ++probes) {
+    runs.clear();
+    tree.collectRuns(blockBox(queries, block), radius(block), runs);
+    for (const Run& run : runs)
+      candidates += static_cast<double>(run.end - run.begin);
+  }
+  const double per_point = probes > 0 ? candidates / static_cast<double>(probes) : 0.0;
+  const double pairs = per_point * static_cast<double>(queries.size);
+  if (per_point > kManyCandidates && pairs > kMostCandidatePairs)
+    throw ExcessiveWork("the radius holds about " + std::to_string(static_cast<long long>(per_point)) +
+                        " candidates a point, " + std::to_string(static_cast<long long>(pairs / 1e9)) +
+                        " billion pairs and roughly " + std::to_string(static_cast<long long>(pairs * kSecondsPerCandidate)) +
+                        " s an iteration; choose a smaller radius");
+}
+
+template <typename RadiusOfBlock>
+Neighborhoods
+collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const RadiusOfBlock& radius)
+{
+  refuseExcessiveWork(tree, queries, radius);
+  const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
+  const std::size_t tasks = (blocks + kBlocksPerTask - 1) / kBlocksPerTask;
+  std::vector<std::vector<Run>> runs(tasks);
+  Neighborhoods result;
+  result.run_offsets.assign(blocks + 1, 0);
+  parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Run>& own = runs[begin / kBlocksPerTask];
+    std::vector<Run> one;
+    for (std::size_t block = begin; block < end; ++block) {
+      one.clear();
+      tree.collectRuns(blockBox(queries, block), radius(block), one);
+      own.insert(own.end(), one.begin(), one.end());
+      result.run_offsets[block + 1] = one.size();
+    }
+  });
+  for (std::size_t block = 0; block < blocks; ++block)
+    result.run_offsets[block + 1] += result.run_offsets[block];
+  result.runs.resize(result.run_offsets.back());
+  parallelBlocks(tasks, 1, threads, [&](std::size_t task, std::size_t) {
+    std::copy(runs[task].begin(), runs[task].end(), result.runs.begin() + static_cast<std::ptrdiff_t>(result.run_offsets[task * kBlocksPerTask]));
+    std::vector<Run>().swap(runs[task]);
+  });
+  return result;
+}
+
+} // namespace
+
+Neighborhoods
+findNeighborhoods(const ClusterTree& tree, PointsView queries, double radius, std::size_t threads)
+{
+  const float same = reach(radius);
+  return collect(tree, queries, threads, [same](std::size_t) { return same; });
+}
+
+Neighborhoods
+findNeighborhoods(const ClusterTree& tree, PointsView queries, const float* radius_sq, std::size_t threads)
+{
+  return collect(tree, queries, threads, [&](std::size_t block) {
+    const std::size_t begin = block * kQueryBlock;
+    const std::size_t end = std::min(queries.size, begin + kQueryBlock);
+    return reach(std::sqrt(static_cast<double>(*std::max_element(radius_sq + begin, radius_sq + end))));
+  });
+}
+
+Neighborhoods
+transposeLists(const NeighborLists& lists, std::size_t absent)
+{
+  if (absent > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw ExcessiveWork("a foreign neighbour search is limited to 2^31 - 1 points");
+  const std::size_t queries = lists.offsets.size() - 1;
+  const std::size_t blocks = (queries + kQueryBlock - 1) / kQueryBlock;
+  Neighborhoods result;
+  result.lane_offsets.assign(blocks + 1, 0);
+  const auto rowSize = [&](std::size_t q) { return lists.offsets[q + 1] - lists.offsets[q]; };
+  for (std::size_t block = 0; block < blocks; ++block) {
+    std::size_t longest = 0;
+    for (std::size_t q = block * kQueryBlock; q < std::min(queries, (block + 1) * kQueryBlock); ++q)
+      longest = std::max(longest, rowSize(q));
+    result.lane_offsets[block + 1] = result.lane_offsets[block] + longest;
+  }
+  result.lanes.assign(result.lane_offsets.back() * kQueryBlock, static_cast<std::int32_t>(absent));
+  for (std::size_t q = 0; q < queries; ++q)
+    for (std::size_t k = 0; k < rowSize(q); ++k)
+      result.lanes[(result.lane_offsets[q / kQueryBlock] + k) * kQueryBlock + q % kQueryBlock] =
+          static_cast<std::int32_t>(lists.indices[lists.offsets[q] + k]);
+  return result;
+}
+
+NeighborLists
+reverseLists(const NeighborLists& lists, std::size_t data_count)
+{
+  NeighborLists result;
+  result.offsets.assign(data_count + 1, 0);
+  result.indices.resize(lists.indices.size());
+  for (const std::uint32_t datum : lists.indices)
+    ++result.offsets[datum + 1];
+  for (std::size_t d = 0; d < data_count; ++d)
+    result.offsets[d + 1] += result.offsets[d];
+  std::vector<std::size_t> next(result.offsets.begin(), result.offsets.end() - 1);
+  for (std::size_t q = 0; q + 1 < lists.offsets.size(); ++q)
+    for (std::size_t k = lists.offsets[q]; k < lists.offsets[q + 1]; ++k)
+      result.indices[next[lists.indices[k]]++] = static_cast<std::uint32_t>(q);
+  return result;
+}
+
+} // namespace pcl_gpf

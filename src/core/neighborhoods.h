@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/core/cluster_tree.h>
+#include <pcl_gpf/core/neighbor_lists.h>
+#include <pcl_gpf/core/soa_buffer.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** Queries are worked on in blocks of this many, the widest vector of any target. */
+constexpr std::size_t kQueryBlock = 16;
+
+/** \brief Candidates of every block of 16 consecutive queries: runs of sorted data points, or the lists of a foreign search.
+ *
+ * A superset of the pairs in reach: kernels test the distance. Built once and used again while points have moved little.
+ */
+struct Neighborhoods {
+  std::vector<std::size_t> run_offsets;  ///< blocks + 1
+  std::vector<Run> runs;
+
+  /** Foreign lists, transposed: entry (offset of block + k) * 16 + lane is the k-th candidate of that lane, `absent` when it has
+   * fewer. Empty when runs are used. */
+  std::vector<std::size_t> lane_offsets; ///< blocks + 1, in rows of 16
+  AlignedArray<std::int32_t> lanes;
+
+  bool foreign() const { return !lane_offsets.empty(); }
+};
+
+/** \brief Runs of `tree` within `radius` of each block of sorted `queries`. \throws ExcessiveWork */
+Neighborhoods
+findNeighborhoods(const ClusterTree& tree, PointsView queries, double radius, std::size_t threads);
+
+/** \brief The same for a radius of each query. */
+Neighborhoods
+findNeighborhoods(const ClusterTree& tree, PointsView queries, const float* radius_sq, std::size_t threads);
+
+/** \brief From rows of neighbours. \param[in] absent index that stands for no neighbour (a padded data point) */
+Neighborhoods
+transposeLists(const NeighborLists& lists, std::size_t absent);
+
+/** \brief Rows of data -> queries turned into rows of queries -> data. */
+NeighborLists
+reverseLists(const NeighborLists& lists, std::size_t data_count);
+
+} // namespace pcl_gpf

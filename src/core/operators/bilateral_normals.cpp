@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/operators/bilateral_normals.h>
+#include <pcl_gpf/core/parallel.h>
+
+#include "../check_range.h"
+#include "../sorted_points.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::size_t kPointsPerTask = 8192;
+/** Below this length a sum of normals has no direction; the old normal stays. */
+constexpr float kShortestSum = 1e-12f;
+
+struct RoundSum {
+  double change = 0;
+  std::size_t isolated = 0;
+};
+
+/** Squared distance of the k-th neighbour of every point, the point itself not counted. */
+AlignedArray<float>
+neighborRadii(const ClusterTree& tree, PointsView points, unsigned k, std::size_t threads)
+{
+  AlignedArray<float> radius_sq(points.size + kQueryBlock, 1.0f);
+  parallelBlocks(points.size, 1024, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> distances_sq;
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.nearest(points, {points.x[i], points.y[i], points.z[i]}, k + 1, distances_sq);
+      // The ball is open: a hair more lets the k-th neighbour in. Coincident points leave a radius that is tiny but not 0.
+      radius_sq[i] = std::max(1e-30f, distances_sq.back() * 1.00001f);
+    }
+  });
+  return radius_sq;
+}
+
+/** Unit vectors from sums; \return mean of the turns and the number of points that only found themselves */
+RoundSum
+normalise(const SortedVectors<float>& before, SortedVectors<float>& sums, std::size_t threads)
+{
+  const std::size_t count = before.size();
+  std::vector<RoundSum> partials((count + kPointsPerTask - 1) / kPointsPerTask);
+  parallelBlocks(count, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    RoundSum& partial = partials[begin / kPointsPerTask];
+    for (std::size_t i = begin; i < end; ++i) {
+      const float length = std::sqrt(sums.x[i] * sums.x[i] + sums.y[i] * sums.y[i] + sums.z[i] * sums.z[i]);
+      const bool alone = sums.x[i] == before.x[i] && sums.y[i] == before.y[i] && sums.z[i] == before.z[i];
+      partial.isolated += alone;
+      if (alone || !(length > kShortestSum)) {
+        sums.x[i] = before.x[i];
+        sums.y[i] = before.y[i];
+        sums.z[i] = before.z[i];
+        continue;
+      }
+      sums.x[i] /= length;
+      sums.y[i] /= length;
+      sums.z[i] /= length;
+      const double dx = sums.x[i] - before.x[i], dy = sums.y[i] - before.y[i], dz = sums.z[i] - before.z[i];
+      partial.change += 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(dx * dx + dy * dy + dz * dz)));
+    }
+  });
+  RoundSum total;
+  for (const RoundSum& partial : partials) {
+    total.change += partial.change;
+    total.isolated += partial.isolated;
+  }
+  return total;
+}
+
+SortedVectors<float>
+gatherUnit(VectorsView normals, const std::vector<std::uint32_t>& order)
+{
+  SortedVectors<float> sorted = gather<float>(normals, {}, order, 0.0f);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double length = std::sqrt(static_cast<double>(sorted.x[i]) * sorted.x[i] + static_cast<double>(sorted.y[i]) * sorted.y[i] +
+                                    static_cast<double>(sorted.z[i]) * sorted.z[i]);
+    // A unit vector stays what it is to the last bit.
+    if (length > 0.0 && std::abs(length - 1.0) > 1e-6) {
+      sorted.x[i] = static_cast<float>(sorted.x[i] / length);
+      sorted.y[i] = static_cast<float>(sorted.y[i] / length);
+      sorted.z[i] = static_cast<float>(sorted.z[i] / length);
+    }
+  }
+  return sorted;
+}
+
+} // namespace
+
+void
+validate(const BilateralNormalsParameters& p)
+{
+  checkRange("bilateral radius", p.radius, p.radius >= 0.0, ">= 0, 0 = estimated");
+  checkRange("bilateral neighbors", p.neighbors, p.neighbors == 0 || (p.neighbors >= 3 && p.neighbors <= 1000), "0 or 3 .. 1000");
+  checkRange("bilateral angle", p.angle, p.angle > 0.0 && p.angle <= 90.0, "0 < angle <= 90 degrees");
+  checkRange("bilateral iterations", p.iterations, p.iterations <= 1000, "0 .. 1000");
+  if (p.radius > 0.0 && p.neighbors > 0)
+    throw InvalidParameter("bilateral radius and neighbors exclude each other; both are set");
+}
+
+BilateralNormalsStatistics
+filterNormalsBilaterally(const BilateralNormalsParameters& parameters, PointsView points, MutableVectorsView normals,
+                         const NeighborSearch& search, const ProgressCallback& progress)
+{
+  const auto start = std::chrono::steady_clock::now();
+  validate(parameters);
+  if (parameters.radius <= 0.0 && parameters.neighbors == 0)
+    throw InvalidParameter("bilateral radius or neighbors must be set; both are 0");
+  const std::size_t threads = resolveThreads(parameters.number_of_threads);
+  const std::vector<std::uint32_t> order = hilbertOrder(points, threads);
+  const SortedVectors<float> sorted = gather<float>(points, {}, order, kFarAway);
+  SortedVectors<float> current = gatherUnit(normals, order), next(order.size());
+  SoaBuffer unused;
+  const PointsView view = sorted.floatView(unused);
+  ClusterTree tree;
+  tree.fit(view, threads);
+
+  kernels::BilateralNormals a;
+  a.queries = a.data = sorted.vectors();
+  AlignedArray<float> radius_sq;
+  double longest = parameters.radius;
+  if (parameters.neighbors > 0) {
+    radius_sq = neighborRadii(tree, view, parameters.neighbors, threads);
+    a.radius.per_query = radius_sq.data();
+    longest = order.empty() ? 0.0 : std::sqrt(*std::max_element(radius_sq.begin(), radius_sq.begin() + order.size()));
+  }
+  a.radius.radius_sq = static_cast<float>(parameters.radius * parameters.radius);
+  a.angle_falloff = static_cast<float>(1.0 / (1.0 - std::cos(parameters.angle * kPi / 180.0)));
+  a.sign_invariant = parameters.sign_invariant;
+
+  BilateralNormalsStatistics statistics;
+  Neighborhoods near;
+  if (parameters.iterations > 0)
+    near = search                     ? transposeLists(search(view, view, longest), order.size())
+           : parameters.neighbors > 0 ? findNeighborhoods(tree, view, radius_sq.data(), threads)
+                                      : findNeighborhoods(tree, view, parameters.radius, threads);
+  const kernels::Candidates candidates = candidatesOf(near);
+  for (unsigned round = 0; round < parameters.iterations; ++round) {
+    if (progress && !progress(static_cast<double>(round) / parameters.iterations))
+      throw Cancelled();
+    a.query_normals = a.data_normals = current.vectors();
+    a.out = next.vectors();
+    parallelBlocks(blockCount(order.size()), kBlocksPerTask, threads,
+                   [&](std::size_t begin, std::size_t end) { kernels::active().bilateral_normals(candidates, a, begin, end); });
+    const RoundSum sum = normalise(current, next, threads);
+    statistics.mean_change.push_back(sum.change * 180.0 / kPi / static_cast<double>(std::max<std::size_t>(1, order.size())));
+    statistics.isolated_points = sum.isolated;
+    std::swap(current, next);
+  }
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    normals.x[order[i]] = current.x[i];
+    normals.y[order[i]] = current.y[i];
+    normals.z[order[i]] = current.z[i];
+  }
+  if (progress && !progress(1.0))
+    throw Cancelled();
+  statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return statistics;
+}
+
+} // namespace pcl_gpf

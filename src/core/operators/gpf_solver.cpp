@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gpf_solver.h"
+
+#include <pcl_gpf/core/parallel.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <type_traits>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/** Keeps eq. 3 finite when every residual is 0; far below any variance that weights could tell apart. */
+constexpr double kLeastVariance = 1e-60;
+constexpr unsigned kIterationsWithoutRepulsion = 3;
+/** Shortest distance, as a share of h, by which a repulsion is divided in the default mode. */
+constexpr double kShortestRepulsion = 1e-3;
+
+template <typename Real>
+const auto&
+projectionKernel()
+{
+  if constexpr (std::is_same<Real, float>::value)
+    return kernels::active().projection_float;
+  else
+    return kernels::active().projection_double;
+}
+
+template <typename Real>
+const auto&
+repulsionKernel()
+{
+  if constexpr (std::is_same<Real, float>::value)
+    return kernels::active().repulsion_float;
+  else
+    return kernels::active().repulsion_double;
+}
+
+template <typename Real>
+const auto&
+gaussianKernel()
+{
+  if constexpr (std::is_same<Real, float>::value)
+    return kernels::active().gaussian_sums_float;
+  else
+    return kernels::active().gaussian_sums_double;
+}
+
+template <typename Real>
+Real
+angleFalloff(double degrees)
+{
+  return static_cast<Real>(1.0 / (1.0 - std::cos(degrees * kPi / 180.0)));
+}
+
+} // namespace
+
+template <typename Real>
+struct GPFSolver<Real>::DataSums {
+  explicit DataSums(std::size_t size, bool variance)
+  : weight(size + kQueryBlock), pull(size)
+  {
+    if (!variance)
+      return;
+    posterior = AlignedArray<Real>(size + kQueryBlock);
+    residual_sq = AlignedArray<Real>(size + kQueryBlock);
+    cross = SortedVectors<Real>(size);
+    diagonal = SortedVectors<Real>(size);
+    mixed = SortedVectors<Real>(size);
+  }
+
+  /** Sum of posterior ((d - delta).b)^2 after the move delta (eq. 11). */
+  double
+  residualAfter(std::size_t m, double x, double y, double z) const
+  {
+    const double linear = x * cross.x[m] + y * cross.y[m] + z * cross.z[m];
+    const double quadratic = x * x * diagonal.x[m] + y * y * diagonal.y[m] + z * z * diagonal.z[m] +
+                             2.0 * (y * z * mixed.x[m] + x * z * mixed.y[m] + x * y * mixed.z[m]);
+    return std::max(0.0, residual_sq[m] - 2.0 * linear + quadratic);
+  }
+
+  AlignedArray<Real> weight;
+  SortedVectors<Real> pull;
+  AlignedArray<Real> posterior, residual_sq;
+  SortedVectors<Real> cross, diagonal, mixed;
+};
+
+template <typename Real>
+struct GPFSolver<Real>::RepulsionSums {
+  AlignedArray<Real> weight;
+  SortedVectors<Real> push;
+};
+
+template <typename Real>
+GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
+: search_(input.search)
+, threads_(resolveThreads(p.number_of_threads))
+, data_radius_(0.5 * p.support_radius)
+, data_neighborhoods_(0.5 * p.support_radius, 1.0)
+, posterior_neighborhoods_(0.5 * p.support_radius, 1.0)
+, repulsion_neighborhoods_(p.support_radius, 2.0)
+, variance_(p.initial_variance > 0.0 ? p.initial_variance : 0.25 * p.support_radius * p.support_radius)
+{
+  parameters = p;
+  sortInput(input);
+  evaluateDensities();
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::sortInput(const GPFInput& input)
+{
+  const std::vector<std::uint32_t> order = hilbertOrder(input.points, threads_);
+  points_ = gather<Real>(input.points, input.remainders, order, Real(kFarAway));
+  point_normals_ = gather<Real>(input.normals, {}, order, Real(0));
+  point_tree_.fit(points_.floatView(float_data_), threads_);
+
+  if (!input.samples) {
+    sample_order_ = order;
+    samples_ = gather<Real>(input.points, input.remainders, order, Real(kFarAway));
+  } else {
+    std::vector<std::uint32_t> place(order.size()); // of each input point among the sorted ones
+    for (std::size_t i = 0; i < order.size(); ++i)
+      place[order[i]] = static_cast<std::uint32_t>(i);
+    sample_order_.resize(input.sample_count);
+    std::iota(sample_order_.begin(), sample_order_.end(), std::uint32_t{0});
+    std::sort(sample_order_.begin(), sample_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const std::uint32_t place_a = place[input.samples[a]], place_b = place[input.samples[b]];
+      return place_a != place_b ? place_a < place_b : a < b;
+    });
+    seeds_.resize(input.sample_count);
+    std::vector<std::uint32_t> seed_points(input.sample_count);
+    for (std::size_t s = 0; s < input.sample_count; ++s) {
+      seed_points[s] = input.samples[sample_order_[s]];
+      seeds_[s] = place[seed_points[s]];
+    }
+    samples_ = gather<Real>(input.points, input.remainders, seed_points, Real(kFarAway));
+    sample_normals_ = gather<Real>(input.normals, {}, seed_points, Real(0));
+  }
+  isolated_.assign(sample_order_.size(), 0);
+}
+
+/** rho_n = 1 + sum over n' != n of theta(|v_n - v_n'|), within h / 2; the point itself contributes the 1. */
+template <typename Real>
+void
+GPFSolver<Real>::evaluateDensities()
+{
+  const bool weighted =
+      parameters.density_weights || parameters.posterior_normalization || parameters.variance_update != VarianceUpdate::Fixed;
+  if (!weighted)
+    return;
+  point_weight_ = AlignedArray<Real>(points_.size() + kQueryBlock, Real(1));
+  inverse_density_ = AlignedArray<Real>(points_.size() + kQueryBlock, Real(1));
+  if (!parameters.density_weights)
+    return;
+  gaussianSums(points_, points_, neighborhoods(point_tree_, points_, points_, data_radius_), data_radius_, 1.0, inverse_density_);
+  for (std::size_t n = 0; n < points_.size(); ++n)
+    inverse_density_[n] = Real(1) / std::max(Real(1), inverse_density_[n]);
+}
+
+template <typename Real>
+IterationStats
+GPFSolver<Real>::step()
+{
+  const auto start = std::chrono::steady_clock::now();
+  if (parameters.posterior_normalization)
+    evaluatePosteriorDenominators();                                // E-step, eq. 3
+  const DataSums data = evaluateDataTerm();                         // M-step, eq. 10, first sum
+  const RepulsionSums repulsion = evaluateRepulsion();              // eq. 10, second sum
+  IterationStats stats = move(data, repulsion);                     // eq. 10 and eq. 11
+  ++iteration_;
+  stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return stats;
+}
+
+/** point_weight_ = 1 / (sum over m' of exp(-|v_n - x_m'|^2 / (2 sigma^2)) + c); 0 where nothing claims the point. */
+template <typename Real>
+void
+GPFSolver<Real>::evaluatePosteriorDenominators()
+{
+  const double omega = parameters.outlier_weight;
+  const double c = std::pow(2.0 * kPi * variance_, 1.5) * omega / (1.0 - omega) * static_cast<double>(samples_.size()) /
+                   static_cast<double>(points_.size());
+  gaussianSums(points_, samples_, current(posterior_neighborhoods_, sample_tree_, samples_, points_), data_radius_,
+               data_radius_ * data_radius_ / (2.0 * variance_), point_weight_);
+  for (std::size_t n = 0; n < points_.size(); ++n) {
+    const Real denominator = point_weight_[n] + static_cast<Real>(c);
+    point_weight_[n] = denominator > Real(0) ? Real(1) / denominator : Real(0);
+  }
+}
+
+template <typename Real>
+typename GPFSolver<Real>::DataSums
+GPFSolver<Real>::evaluateDataTerm()
+{
+  const bool variance = parameters.variance_update != VarianceUpdate::Fixed;
+  DataSums sums(samples_.size(), variance);
+  kernels::Projection<Real> a;
+  a.queries = samples_.vectors();
+  a.query_normals = sampleNormals().vectors();
+  a.data = points_.vectors();
+  a.data_normals = point_normals_.vectors();
+  a.radius.radius_sq = static_cast<Real>(data_radius_ * data_radius_);
+  a.falloff = static_cast<Real>(data_radius_ * data_radius_ / (2.0 * variance_));
+  a.symmetric = parameters.data_term == DataTerm::Symmetric;
+  a.symmetry_falloff = angleFalloff<Real>(30.0);
+  a.normal_weights = parameters.normal_angle < 90.0 && parameters.normal_weight_floor < 1.0;
+  a.normal_falloff = angleFalloff<Real>(parameters.normal_angle);
+  a.normal_floor = static_cast<Real>(parameters.normal_weight_floor);
+  a.data_weight = point_weight_.empty() ? nullptr : point_weight_.data();
+  a.data_density = inverse_density_.empty() ? nullptr : inverse_density_.data();
+  a.weight_sum = sums.weight.data();
+  a.pull = sums.pull.vectors();
+  a.variance = variance;
+  a.posterior_sum = sums.posterior.data();
+  a.residual_sq = sums.residual_sq.data();
+  a.cross = sums.cross.vectors();
+  a.scatter_diagonal = sums.diagonal.vectors();
+  a.scatter_mixed = sums.mixed.vectors();
+  const kernels::Candidates candidates = candidatesOf(current(data_neighborhoods_, point_tree_, points_, samples_));
+  parallelBlocks(blockCount(samples_.size()), kBlocksPerTask, threads_,
+                 [&](std::size_t begin, std::size_t end) { projectionKernel<Real>()(candidates, a, begin, end); });
+  return sums;
+}
+
+template <typename Real>
+double
+GPFSolver<Real>::repulsionWeight() const
+{
+  const bool last = parameters.own_tangent_repulsion && parameters.maximum_iterations > kIterationsWithoutRepulsion &&
+                    iteration_ + kIterationsWithoutRepulsion >= parameters.maximum_iterations;
+  return last ? 0.0 : parameters.repulsion_weight;
+}
+
+template <typename Real>
+typename GPFSolver<Real>::RepulsionSums
+GPFSolver<Real>::evaluateRepulsion()
+{
+  if (repulsionWeight() == 0.0)
+    return {};
+  const double h = parameters.support_radius;
+  const Neighborhoods& near = current(repulsion_neighborhoods_, sample_tree_, samples_, samples_);
+  AlignedArray<Real> sample_density;
+  if (parameters.density_weights) {
+    sample_density = AlignedArray<Real>(samples_.size() + kQueryBlock);
+    gaussianSums(samples_, samples_, near, h, 4.0, sample_density); // w_m; theta(r) = exp(-4 r^2 / h^2)
+  }
+  RepulsionSums sums{AlignedArray<Real>(samples_.size() + kQueryBlock), SortedVectors<Real>(samples_.size())};
+  kernels::Repulsion<Real> a;
+  a.queries = a.data = samples_.vectors();
+  a.data_normals = sampleNormals().vectors();
+  a.radius.radius_sq = static_cast<Real>(h * h);
+  a.falloff = Real(4);
+  a.shortest = parameters.own_tangent_repulsion ? static_cast<Real>(kShortestRepulsion * h) : Real(0);
+  a.data_weight = sample_density.empty() ? nullptr : sample_density.data();
+  a.push = sums.push.vectors();
+  a.weight_sum = sums.weight.data();
+  const kernels::Candidates candidates = candidatesOf(near);
+  parallelBlocks(blockCount(samples_.size()), kBlocksPerTask, threads_,
+                 [&](std::size_t begin, std::size_t end) { repulsionKernel<Real>()(candidates, a, begin, end); });
+  return sums;
+}
+
+template <typename Real>
+IterationStats
+GPFSolver<Real>::move(const DataSums& data, const RepulsionSums& repulsion)
+{
+  constexpr std::size_t kPointsPerTask = 8192; // fixed, so that sums do not depend on the number of threads
+  struct Partial {
+    double movement = 0, longest = 0, posterior = 0, residual = 0;
+    std::size_t isolated = 0;
+  };
+  const std::size_t count = samples_.size();
+  const double mu = repulsion.weight.empty() ? 0.0 : repulsionWeight();
+  const bool variance = !data.posterior.empty();
+  const SortedVectors<Real>& own_normals = sampleNormals();
+  std::vector<Partial> partials((count + kPointsPerTask - 1) / kPointsPerTask);
+  parallelBlocks(count, kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    Partial& sum = partials[begin / kPointsPerTask];
+    for (std::size_t m = begin; m < end; ++m) {
+      Real x = 0, y = 0, z = 0;
+      isolated_[m] = !(data.weight[m] > Real(0));
+      if (!isolated_[m]) {
+        x = data.pull.x[m] / data.weight[m];
+        y = data.pull.y[m] / data.weight[m];
+        z = data.pull.z[m] / data.weight[m];
+      }
+      if (mu > 0.0 && repulsion.weight[m] > Real(0)) {
+        const Real scale = static_cast<Real>(mu) / repulsion.weight[m];
+        Real px = scale * repulsion.push.x[m], py = scale * repulsion.push.y[m], pz = scale * repulsion.push.z[m];
+        if (parameters.own_tangent_repulsion) {
+          const Real nx = own_normals.x[m], ny = own_normals.y[m], nz = own_normals.z[m];
+          const Real height = px * nx + py * ny + pz * nz;
+          px -= height * nx;
+          py -= height * ny;
+          pz -= height * nz;
+        }
+        x += px;
+        y += py;
+        z += pz;
+      }
+      if (variance) {
+        sum.posterior += data.posterior[m];
+        sum.residual += data.residualAfter(m, x, y, z);
+      } else
+        sum.posterior += data.weight[m];
+      sum.isolated += isolated_[m];
+      samples_.x[m] += x;
+      samples_.y[m] += y;
+      samples_.z[m] += z;
+      const double length = std::sqrt(static_cast<double>(x) * x + static_cast<double>(y) * y + static_cast<double>(z) * z);
+      sum.movement += length;
+      sum.longest = std::max(sum.longest, length);
+    }
+  });
+
+  IterationStats stats;
+  double residual = 0.0;
+  for (const Partial& partial : partials) {
+    stats.mean_movement += partial.movement;
+    stats.max_movement = std::max(stats.max_movement, partial.longest);
+    stats.posterior_sum += partial.posterior;
+    stats.isolated_points += partial.isolated;
+    residual += partial.residual;
+  }
+  stats.mean_movement /= static_cast<double>(std::max<std::size_t>(1, count));
+  stats.variance = variance_;
+  if (variance && stats.posterior_sum > 0.0) {
+    const double degrees_of_freedom = parameters.variance_update == VarianceUpdate::Paper ? 3.0 : 1.0;
+    variance_ = std::max(kLeastVariance, residual / (degrees_of_freedom * stats.posterior_sum)); // eq. 11
+  }
+  stats.next_variance = variance_;
+  data_neighborhoods_.addMovement(stats.max_movement);
+  posterior_neighborhoods_.addMovement(stats.max_movement);
+  repulsion_neighborhoods_.addMovement(stats.max_movement);
+  return stats;
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::gaussianSums(const SortedVectors<Real>& queries, const SortedVectors<Real>& data,
+                              const Neighborhoods& neighborhoods, double radius, double falloff, AlignedArray<Real>& out) const
+{
+  kernels::GaussianSums<Real> a;
+  a.queries = queries.vectors();
+  a.data = data.vectors();
+  a.radius.radius_sq = static_cast<Real>(radius * radius);
+  a.falloff = static_cast<Real>(falloff);
+  a.out = out.data();
+  const kernels::Candidates candidates = candidatesOf(neighborhoods);
+  parallelBlocks(blockCount(queries.size()), kBlocksPerTask, threads_,
+                 [&](std::size_t begin, std::size_t end) { gaussianKernel<Real>()(candidates, a, begin, end); });
+}
+
+template <typename Real>
+Neighborhoods
+GPFSolver<Real>::neighborhoods(const ClusterTree& tree, const SortedVectors<Real>& data, const SortedVectors<Real>& queries,
+                               double reach)
+{
+  const PointsView query_view = queries.floatView(float_queries_);
+  if (search_)
+    return transposeLists(search_(data.floatView(float_data_), query_view, reach), data.size());
+  return findNeighborhoods(tree, query_view, reach, threads_);
+}
+
+template <typename Real>
+const Neighborhoods&
+GPFSolver<Real>::current(MovingNeighborhoods& moving, const ClusterTree& tree, const SortedVectors<Real>& data,
+                         const SortedVectors<Real>& queries)
+{
+  if (moving.stale()) {
+    if (&tree == &sample_tree_)
+      sample_tree_.fit(samples_.floatView(float_data_), threads_);
+    moving.set(neighborhoods(tree, data, queries, moving.reach()));
+  }
+  return moving.get();
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::positions(MutableVectorsView out) const
+{
+  for (std::size_t s = 0; s < size(); ++s) {
+    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s]);
+    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s]);
+    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s]);
+  }
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::displacements(MutableVectorsView out) const
+{
+  for (std::size_t s = 0; s < size(); ++s) {
+    const std::size_t seed = seedOf(s);
+    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s] - points_.x[seed]);
+    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s] - points_.y[seed]);
+    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s] - points_.z[seed]);
+  }
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::normals(MutableVectorsView out) const
+{
+  const SortedVectors<Real>& own = sampleNormals();
+  for (std::size_t s = 0; s < size(); ++s) {
+    out.x[sample_order_[s]] = static_cast<float>(own.x[s]);
+    out.y[sample_order_[s]] = static_cast<float>(own.y[s]);
+    out.z[sample_order_[s]] = static_cast<float>(own.z[s]);
+  }
+}
+
+template <typename Real>
+std::vector<std::uint8_t>
+GPFSolver<Real>::isolated() const
+{
+  std::vector<std::uint8_t> out(size());
+  for (std::size_t s = 0; s < size(); ++s)
+    out[sample_order_[s]] = isolated_[s];
+  return out;
+}
+
+template class GPFSolver<float>;
+template class GPFSolver<double>;
+
+} // namespace pcl_gpf

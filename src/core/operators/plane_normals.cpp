@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/parallel.h>
+
+#include "../check_range.h"
+#include "../sorted_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr std::size_t kFewestNeighbors = 6;
+constexpr std::size_t kNearestInstead = 12;
+constexpr std::size_t kPointsPerTask = 1024;
+/** Second eigenvalue below this share of the largest: the points lie on a line or coincide, no plane is better than another. */
+constexpr double kLineRatio = 1e-10;
+
+struct MomentSums {
+  explicit MomentSums(std::size_t size) : count(size + kQueryBlock), mean(size), diagonal(size), mixed(size) {}
+
+  AlignedArray<float> count;
+  SortedVectors<float> mean, diagonal, mixed;
+};
+
+struct PlaneFit {
+  Eigen::Vector3d normal{0.0, 0.0, 1.0};
+  double surface_variation = 0.0;
+  bool spans_plane = false;
+};
+
+PlaneFit
+fitPlane(double count, const Eigen::Vector3d& sum, Eigen::Matrix3d scatter)
+{
+  PlaneFit fit;
+  if (count < 3.0)
+    return fit;
+  const Eigen::Vector3d mean = sum / count;
+  scatter = scatter / count - mean * mean.transpose();
+  const double size = scatter.trace();
+  if (!(size > 0.0))
+    return fit;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(scatter / size);
+  const Eigen::Vector3d values = solver.eigenvalues();
+  if (!(values[1] > kLineRatio * values[2]))
+    return fit;
+  fit.spans_plane = true;
+  fit.normal = solver.eigenvectors().col(0).normalized();
+  Eigen::Index largest = 0;
+  fit.normal.cwiseAbs().maxCoeff(&largest);
+  if (fit.normal[largest] < 0.0)
+    fit.normal = -fit.normal;
+  fit.surface_variation = std::max(0.0, values[0]);
+  return fit;
+}
+
+PlaneFit
+fitNearest(const ClusterTree& tree, PointsView points, std::size_t i, std::vector<float>& distances_sq,
+           std::vector<std::uint32_t>& indices)
+{
+  tree.nearest(points, {points.x[i], points.y[i], points.z[i]}, kNearestInstead, distances_sq, &indices);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t j : indices) {
+    const Eigen::Vector3d d(points.x[j] - points.x[i], points.y[j] - points.y[i], points.z[j] - points.z[i]);
+    sum += d;
+    scatter += d * d.transpose();
+  }
+  return fitPlane(static_cast<double>(indices.size()), sum, scatter);
+}
+
+PlaneFit
+fitMoments(const MomentSums& m, std::size_t i)
+{
+  Eigen::Matrix3d scatter;
+  scatter << m.diagonal.x[i], m.mixed.z[i], m.mixed.y[i], //
+      m.mixed.z[i], m.diagonal.y[i], m.mixed.x[i],        //
+      m.mixed.y[i], m.mixed.x[i], m.diagonal.z[i];
+  return fitPlane(m.count[i], Eigen::Vector3d(m.mean.x[i], m.mean.y[i], m.mean.z[i]), scatter);
+}
+
+} // namespace
+
+std::size_t
+estimatePlaneNormals(const PlaneNormalsParameters& parameters, PointsView points, MutableVectorsView normals,
+                     float* surface_variation)
+{
+  checkRange("normal radius", parameters.radius, parameters.radius > 0.0, "> 0");
+  const std::size_t threads = resolveThreads(parameters.number_of_threads);
+  const std::vector<std::uint32_t> order = hilbertOrder(points, threads);
+  const SortedVectors<float> sorted = gather<float>(points, {}, order, kFarAway);
+  SoaBuffer unused;
+  const PointsView view = sorted.floatView(unused);
+  ClusterTree tree;
+  tree.fit(view, threads);
+
+  MomentSums sums(order.size());
+  kernels::Moments a;
+  a.queries = a.data = sorted.vectors();
+  a.radius.radius_sq = static_cast<float>(parameters.radius * parameters.radius);
+  a.count = sums.count.data();
+  a.mean = sums.mean.vectors();
+  a.scatter_diagonal = sums.diagonal.vectors();
+  a.scatter_mixed = sums.mixed.vectors();
+  const Neighborhoods near = findNeighborhoods(tree, view, parameters.radius, threads);
+  const kernels::Candidates candidates = candidatesOf(near);
+  parallelBlocks(blockCount(order.size()), kBlocksPerTask, threads,
+                 [&](std::size_t begin, std::size_t end) { kernels::active().moments(candidates, a, begin, end); });
+
+  std::vector<std::size_t> failures((order.size() + kPointsPerTask - 1) / kPointsPerTask);
+  parallelBlocks(order.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> distances_sq;
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool few = sums.count[i] < static_cast<float>(kFewestNeighbors);
+      const PlaneFit fit = few ? fitNearest(tree, view, i, distances_sq, indices) : fitMoments(sums, i);
+      failures[begin / kPointsPerTask] += !fit.spans_plane;
+      normals.x[order[i]] = static_cast<float>(fit.normal[0]);
+      normals.y[order[i]] = static_cast<float>(fit.normal[1]);
+      normals.z[order[i]] = static_cast<float>(fit.normal[2]);
+      if (surface_variation)
+        surface_variation[order[i]] = static_cast<float>(fit.surface_variation);
+    }
+  });
+  std::size_t failed = 0;
+  for (const std::size_t part : failures)
+    failed += part;
+  return failed;
+}
+
+} // namespace pcl_gpf

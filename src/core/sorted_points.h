@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "kernels/kernels.h"
+
+#include <pcl_gpf/core/soa_buffer.h>
+
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** Position of the padded data element that stands for "no neighbour": beyond any radius, its square still finite in float. */
+constexpr float kFarAway = 1e18f;
+
+/** \brief Three padded arrays; positions have kFarAway behind their end. */
+template <typename Real>
+struct SortedVectors {
+  AlignedArray<Real> x, y, z;
+
+  SortedVectors() = default;
+  explicit SortedVectors(std::size_t size, Real padding = Real(0)) : x(make(size, padding)), y(make(size, padding)), z(make(size, padding)) {}
+
+  std::size_t size() const { return x.size() < kQueryBlock ? 0 : x.size() - kQueryBlock; }
+  kernels::Vectors<Real> vectors() const { return {x.data(), y.data(), z.data()}; }
+  kernels::MutableVectors<Real> vectors() { return {x.data(), y.data(), z.data()}; }
+
+  /** \brief As float; `storage` is used only when Real is not float. */
+  VectorsView
+  floatView(SoaBuffer& storage) const
+  {
+    if constexpr (std::is_same<Real, float>::value)
+      return {x.data(), y.data(), z.data(), size()};
+    else {
+      if (storage.size() != size())
+        storage = SoaBuffer(size());
+      for (std::size_t i = 0; i < size(); ++i) {
+        storage.x[i] = static_cast<float>(x[i]);
+        storage.y[i] = static_cast<float>(y[i]);
+        storage.z[i] = static_cast<float>(z[i]);
+      }
+      return storage.view();
+    }
+  }
+
+private:
+  static AlignedArray<Real>
+  make(std::size_t size, Real padding)
+  {
+    AlignedArray<Real> array(size + kQueryBlock, padding);
+    return array;
+  }
+};
+
+/** \brief Copies `from` in the order of `order`, adding remainders if there are any. */
+template <typename Real>
+SortedVectors<Real>
+gather(VectorsView from, VectorsView remainders, const std::vector<std::uint32_t>& order, Real padding)
+{
+  SortedVectors<Real> to(order.size(), padding);
+  const auto one = [&](const float* values, const float* rest, AlignedArray<Real>& target) {
+    for (std::size_t i = 0; i < order.size(); ++i)
+      target[i] = static_cast<Real>(values[order[i]]) + (rest ? static_cast<Real>(rest[order[i]]) : Real(0));
+  };
+  one(from.x, remainders.x, to.x);
+  one(from.y, remainders.y, to.y);
+  one(from.z, remainders.z, to.z);
+  return to;
+}
+
+/** \brief Pointers to candidates as the kernels take them. */
+inline kernels::Candidates
+candidatesOf(const Neighborhoods& neighborhoods)
+{
+  if (neighborhoods.foreign())
+    return {nullptr, nullptr, neighborhoods.lane_offsets.data(), neighborhoods.lanes.data()};
+  return {neighborhoods.run_offsets.data(), neighborhoods.runs.data(), nullptr, nullptr};
+}
+
+/** Blocks of queries that one task takes: enough to hide its cost, few enough to balance. */
+constexpr std::size_t kBlocksPerTask = 32;
+
+inline std::size_t
+blockCount(std::size_t queries)
+{
+  return (queries + kQueryBlock - 1) / kQueryBlock;
+}
+
+} // namespace pcl_gpf
