@@ -39,6 +39,7 @@ public:
 
 private:
   void openTemporary();
+  void discard() noexcept;
   [[noreturn]] void fail(const std::string& step, int error) const;
 
   std::string path_;      // as the caller named it, for messages
@@ -48,7 +49,6 @@ private:
   bool overwrite_;
   int file_ = -1;
   int cleanup_slot_ = -1;
-  int kept_mode_ = -1;  // of the file that is replaced
 };
 
 /** \brief For a program's main(): on SIGINT, SIGTERM and SIGHUP the temporary files of all open AtomicFile objects are
