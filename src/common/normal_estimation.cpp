@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/common/normal_estimation.h>
+#include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/parallel.h>
+
+#include <pcl/features/normal_3d_omp.h>
+#include <pcl/search/kdtree.h>
+
+#include <cmath>
+#include <string>
+
+namespace pcl_gpf {
+namespace {
+
+constexpr unsigned kFewestNeighbors = 3; // a plane
+
+void
+check(const NormalEstimationParameters& parameters)
+{
+  if (!(parameters.radius >= 0) || !std::isfinite(parameters.radius))
+    throw InvalidParameter("radius = " + std::to_string(parameters.radius) + ": must be >= 0 and finite");
+  if (parameters.radius == 0 && parameters.neighbors < kFewestNeighbors)
+    throw InvalidParameter("neighbors = " + std::to_string(parameters.neighbors) + ": must be >= 3");
+}
+
+} // namespace
+
+pcl::PointCloud<pcl::Normal>
+estimateNormalsOfFinitePoints(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& points,
+                              const Eigen::Vector3f& viewpoint,
+                              const NormalEstimationParameters& parameters)
+{
+  check(parameters);
+  pcl::PointCloud<pcl::Normal> normals;
+  if (points->empty()) // PCL's tree crashes on a query after an empty cloud
+    return normals;
+  const auto threads = static_cast<unsigned>(resolveThreads(parameters.number_of_threads));
+  pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation(threads);
+  estimation.setInputCloud(points);
+  estimation.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>(false));
+  estimation.setViewPoint(viewpoint.x(), viewpoint.y(), viewpoint.z());
+  if (parameters.radius > 0)
+    estimation.setRadiusSearch(parameters.radius);
+  else
+    estimation.setKSearch(static_cast<int>(parameters.neighbors));
+  estimation.compute(normals);
+  return normals;
+}
+
+} // namespace pcl_gpf
