@@ -3,6 +3,7 @@
 
 #include <pcl/PCLPointCloud2.h>
 
+#include "pcl_gpf/common/abi_check.h"
 #include "pcl_gpf/common/export.h"
 #include "pcl_gpf/io/cloud_file.h"
 
