@@ -186,7 +186,8 @@ denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageP
   gpf_input.samples = sampled ? samples.data() : nullptr;
   gpf_input.sample_count = samples.size();
   GPFState state = gpfInit(parameters.gpf, gpf_input);
-  packed.points = packed.remainders = packed.normals = SoaBuffer(); // the state has its own
+  for (SoaBuffer* buffer : {&packed.points, &packed.remainders, &packed.normals}) // the state has its own
+    *buffer = SoaBuffer();
   result.iterations = gpfRun(state, stageOf("filter", progress));
   for (IterationStats& stats : result.iterations) {
     stats.mean_movement = packed.frame.lengthToWorld(stats.mean_movement);

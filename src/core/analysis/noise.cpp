@@ -15,12 +15,12 @@ namespace pcl_gpf {
 
 namespace {
 
-constexpr std::size_t kMostProbes = 1024;
+constexpr std::size_t kMostProbes = 512;
 /** Sizes of neighbourhood, each twice the one before. */
-constexpr std::array<std::size_t, 6> kScales = {24, 48, 96, 192, 384, 768};
+constexpr std::array<std::size_t, 5> kScales = {48, 96, 192, 384, 768};
 constexpr std::size_t kQuadricTerms = 6;
 /** A neighbourhood is a patch of surface, rather than a blob of noise, when it is at least this many times wider than thick. */
-constexpr double kFlatness = 5.0;
+constexpr double kFlatness = 2.5;
 
 /** Residual standard deviation of a quadric height field over the plane of `count` nearest points; and width over thickness. */
 struct PatchFit {
@@ -62,7 +62,7 @@ median(std::vector<double>& values)
 {
   if (values.empty())
     return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 7 / 20);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }

@@ -22,7 +22,7 @@ struct BilateralNormalsParameters {
 
   /** Angle sigma_n in degrees, 0 < sigma_n <= 90, at which a neighbour's weight has fallen to 1/e. Below the angular noise of
    * the input nothing is averaged; above the smallest edge angle edges round off. */
-  double angle = 15.0;
+  double angle = 30.0;
 
   /** Rounds, 0 .. 1000; 0 only normalises. 3 to 5 are enough, more sharpen further. */
   unsigned iterations = 5;
