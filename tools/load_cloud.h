@@ -24,6 +24,10 @@ struct LoadedCloud {
 LoadedCloud
 loadCloud(const std::string& path, Console& console);
 
+/** \brief Counts and measures the coordinates of a cloud. */
+LoadedCloud
+inspectCloud(CloudFile file);
+
 /** \brief Refuses what no command can work on. \throws UnsuitableData: no points, none finite, all at one place */
 void
 requireUsable(const LoadedCloud& cloud);

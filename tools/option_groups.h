@@ -49,6 +49,11 @@ outputPath(const Options& options);
 std::optional<CloudFormat>
 chosenFormat(const Options& options);
 
+/** \brief Asks before any work whether the file of --json, if there is one, can be written.
+ * \throws IoError (kind Unwritable) */
+void
+checkReport(const Options& options);
+
 /** \brief Asks before any work whether --output and --json FILE can be written, and refuses both on standard output.
  * \throws UsageError, IoError (kind Unwritable) */
 void

@@ -98,8 +98,4 @@ private:
 std::string
 describeRange(const OptionSpec& spec);
 
-/** \brief Of `candidates` the one that `word` is most likely a misspelling of, or "" when none is near. */
-std::string
-nearestSpelling(const std::string& word, const std::vector<std::string>& candidates);
-
 } // namespace pcl_gpf

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../option_groups.h"
+#include "commands.h"
+
+namespace pcl_gpf {
+
+const std::vector<Command>&
+allCommands()
+{
+  static const std::vector<Command> commands = [] {
+    std::vector<Command> list;
+    list.push_back(infoCommand());
+    list.push_back(filterCommand());
+    list.push_back(normalsCommand());
+    list.push_back(convertCommand());
+#ifdef PCL_GPF_TOOL_HAS_COMPARE
+    list.push_back(compareCommand());
+#endif
+#ifdef PCL_GPF_TOOL_HAS_NOISE
+    list.push_back(noiseCommand());
+#endif
+#ifdef PCL_GPF_TOOL_HAS_RENDER
+    list.push_back(renderCommand());
+#endif
+    for (Command& command : list)
+      command.options = command.options + std::vector<OptionSpec>{quietOption(), helpOption()};
+    return list;
+  }();
+  return commands;
+}
+
+} // namespace pcl_gpf

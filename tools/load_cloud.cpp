@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load_cloud.h"
+
+#include "console.h"
+
+#include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/soa_buffer.h>
+#include <pcl_gpf/io/read_cloud.h>
+
+#include <cmath>
+#include <utility>
+
+namespace pcl_gpf {
+
+namespace {
+
+bool
+isFinite(const CloudCoordinates& points, std::size_t i)
+{
+  return std::isfinite(points.x[i]) && std::isfinite(points.y[i]) && std::isfinite(points.z[i]);
+}
+
+} // namespace
+
+LoadedCloud
+inspectCloud(CloudFile file)
+{
+  LoadedCloud cloud;
+  cloud.file = std::move(file);
+  cloud.coordinates = cloud.file.coordinates();
+  for (std::size_t i = 0; i < cloud.file.size(); ++i)
+    if (isFinite(cloud.coordinates, i))
+      cloud.box.add(cloud.coordinates.x[i], cloud.coordinates.y[i], cloud.coordinates.z[i]);
+  cloud.finite = cloud.box.count;
+  return cloud;
+}
+
+LoadedCloud
+loadCloud(const std::string& path, Console& console)
+{
+  LoadedCloud cloud = inspectCloud(readCloud(path));
+  for (const std::string& warning : cloud.file.warnings)
+    console.warn(warning);
+  return cloud;
+}
+
+void
+requireUsable(const LoadedCloud& cloud)
+{
+  if (cloud.file.size() == 0)
+    throw UnsuitableData("the cloud has no points");
+  if (cloud.finite == 0)
+    throw UnsuitableData("none of the " + std::to_string(cloud.file.size()) + " points has finite coordinates");
+  if (cloud.box.min == cloud.box.max)
+    throw UnsuitableData("all " + std::to_string(cloud.finite) + " finite points are at one place");
+}
+
+CloudScale
+measureCloud(const LoadedCloud& cloud, unsigned threads)
+{
+  const double diagonal = cloud.box.diagonal();
+  if (!(diagonal > 0.0) || !std::isfinite(diagonal))
+    return {};
+  const LocalFrame frame = localFrame(cloud.box);
+  SoaBuffer local(cloud.finite);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.file.size(); ++i) {
+    if (!isFinite(cloud.coordinates, i))
+      continue;
+    local.x[count] = frame.toLocal(cloud.coordinates.x[i], 0);
+    local.y[count] = frame.toLocal(cloud.coordinates.y[i], 1);
+    local.z[count] = frame.toLocal(cloud.coordinates.z[i], 2);
+    ++count;
+  }
+  CloudScale scale = measureScale(local.view(), threads);
+  scale.spacing = frame.lengthToWorld(scale.spacing);
+  scale.noise = frame.lengthToWorld(scale.noise);
+  scale.h0 = frame.lengthToWorld(scale.h0);
+  scale.diagonal = diagonal;
+  return scale;
+}
+
+} // namespace pcl_gpf
