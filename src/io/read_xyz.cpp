@@ -28,7 +28,7 @@ public:
       std::string_view first;
       takeToken(rest, first);
       if (first[0] == '#' || first.substr(0, 2) == "//") takeCommentLine(line);
-      else if (columns_ == 0 && !promised_points_ && splitTokens(line).size() == 1) takePointCount(first);
+      else if (columns_ == 0 && !promised_points_ && isLoneInteger(line)) takePointCount(first);
       else takeRow(line);
     }
     if (columns_ == 0) source_.fail("rows of at least three numbers", "no row");
@@ -52,6 +52,10 @@ private:
     }
     comment_bytes_ += text.size();
     if (comment_bytes_ <= kMaxCommentBytes) takeComment(std::string_view(text).substr(begin), cloud_);
+  }
+
+  static bool isLoneInteger(std::string_view line) {
+    return trimmed(line).find_first_not_of("0123456789") == std::string::npos;
   }
 
   void takePointCount(std::string_view token) { promised_points_ = parseCount(lines_, token, "the number of points"); }
