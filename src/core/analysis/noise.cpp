@@ -2,8 +2,6 @@
 #include <pcl_gpf/core/analysis/noise.h>
 #include <pcl_gpf/core/parallel.h>
 
-#include "../sorted_points.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,27 +70,27 @@ median(std::vector<double>& values)
 double
 estimateNoise(PointsView points, double spacing, unsigned number_of_threads)
 {
-  if (points.size < kScales.front() || !(spacing > 0.0))
-    return 0.0;
-  const std::size_t threads = resolveThreads(number_of_threads);
-  const SortedVectors<float> sorted = gather<float>(points, {}, hilbertOrder(points, threads), kFarAway);
-  SoaBuffer unused;
-  const PointsView view = sorted.floatView(unused);
-  ClusterTree tree;
-  tree.fit(view, threads);
+  return estimateNoise(PointIndex(points, number_of_threads), spacing, number_of_threads);
+}
 
-  const std::size_t probes = std::min(kMostProbes, points.size);
+double
+estimateNoise(const PointIndex& points, double spacing, unsigned number_of_threads)
+{
+  if (points.size() < kScales.front() || !(spacing > 0.0))
+    return 0.0;
+  const PointsView view = points.sorted();
+  const std::size_t probes = std::min(kMostProbes, points.size());
   std::vector<double> estimates(probes);
-  parallelBlocks(probes, 16, threads, [&](std::size_t begin, std::size_t end) {
+  parallelBlocks(probes, 16, resolveThreads(number_of_threads), [&](std::size_t begin, std::size_t end) {
     std::vector<float> distances_sq;
     std::vector<std::uint32_t> indices;
     for (std::size_t probe = begin; probe < end; ++probe) {
-      const std::size_t i = probe * points.size / probes;
+      const std::size_t i = probe * points.size() / probes;
       // The smallest neighbourhood that is clearly a patch: larger ones see edges and curvature, smaller ones only noise.
       for (const std::size_t count : kScales) {
-        if (count > points.size)
+        if (count > points.size())
           break;
-        tree.nearest(view, {view.x[i], view.y[i], view.z[i]}, count, distances_sq, &indices);
+        points.tree().nearest(view, {view.x[i], view.y[i], view.z[i]}, count, distances_sq, &indices);
         const PatchFit fit = fitPatch(view, indices, count);
         estimates[probe] = fit.residual;
         if (fit.flatness >= kFlatness)

@@ -34,12 +34,21 @@ fill(double& value, ParameterOrigin estimate, std::vector<ParameterOrigin>& orig
 CloudScale
 measureScale(PointsView points, unsigned number_of_threads)
 {
+  return measureScale(PointIndex(points, number_of_threads), number_of_threads);
+}
+
+CloudScale
+measureScale(const PointIndex& points, unsigned number_of_threads)
+{
   CloudScale scale;
+  if (points.size() == 0)
+    return scale;
+  const FloatBox bounds = points.tree().bounds();
   BoundingBox box;
-  for (std::size_t i = 0; i < points.size; ++i)
-    box.add(points.x[i], points.y[i], points.z[i]);
+  box.add(bounds.min[0], bounds.min[1], bounds.min[2]);
+  box.add(bounds.max[0], bounds.max[1], bounds.max[2]);
   scale.diagonal = box.diagonal();
-  scale.h0 = points.size > 0 ? scale.diagonal / std::sqrt(static_cast<double>(points.size)) : 0.0;
+  scale.h0 = scale.diagonal / std::sqrt(static_cast<double>(points.size()));
   scale.spacing = estimateSpacing(points, number_of_threads);
   scale.noise = estimateNoise(points, scale.spacing, number_of_threads);
   return scale;

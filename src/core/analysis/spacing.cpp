@@ -2,8 +2,6 @@
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/parallel.h>
 
-#include "../sorted_points.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -20,23 +18,23 @@ constexpr double kPi = 3.14159265358979323846;
 double
 estimateSpacing(PointsView points, unsigned number_of_threads)
 {
-  if (points.size < 2)
-    return 0.0;
-  const std::size_t threads = resolveThreads(number_of_threads);
-  const SortedVectors<float> sorted = gather<float>(points, {}, hilbertOrder(points, threads), kFarAway);
-  SoaBuffer unused;
-  const PointsView view = sorted.floatView(unused);
-  ClusterTree tree;
-  tree.fit(view, threads);
+  return estimateSpacing(PointIndex(points, number_of_threads), number_of_threads);
+}
 
-  const std::size_t neighbor = std::min(kNeighbor, points.size - 1);
-  const std::size_t probes = std::min(kMostProbes, points.size);
+double
+estimateSpacing(const PointIndex& points, unsigned number_of_threads)
+{
+  if (points.size() < 2)
+    return 0.0;
+  const PointsView view = points.sorted();
+  const std::size_t neighbor = std::min(kNeighbor, points.size() - 1);
+  const std::size_t probes = std::min(kMostProbes, points.size());
   std::vector<float> distances_sq(probes);
-  parallelBlocks(probes, 64, threads, [&](std::size_t begin, std::size_t end) {
+  parallelBlocks(probes, 64, resolveThreads(number_of_threads), [&](std::size_t begin, std::size_t end) {
     std::vector<float> nearest_sq;
     for (std::size_t probe = begin; probe < end; ++probe) {
-      const std::size_t i = probe * points.size / probes; // even steps along the curve: even over the surface
-      tree.nearest(view, {view.x[i], view.y[i], view.z[i]}, neighbor + 1, nearest_sq);
+      const std::size_t i = probe * points.size() / probes; // even steps along the curve: even over the surface
+      points.tree().nearest(view, {view.x[i], view.y[i], view.z[i]}, neighbor + 1, nearest_sq);
       distances_sq[probe] = nearest_sq.back();
     }
   });

@@ -73,20 +73,19 @@ normalise(const SortedVectors<float>& before, SortedVectors<float>& sums, std::s
 }
 
 SortedVectors<float>
-gatherUnit(VectorsView normals, const std::vector<std::uint32_t>& order)
+unitVectors(VectorsView normals)
 {
-  SortedVectors<float> sorted = gather<float>(normals, {}, order, 0.0f);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const double length = std::sqrt(static_cast<double>(sorted.x[i]) * sorted.x[i] + static_cast<double>(sorted.y[i]) * sorted.y[i] +
-                                    static_cast<double>(sorted.z[i]) * sorted.z[i]);
+  SortedVectors<float> unit(normals.size);
+  for (std::size_t i = 0; i < normals.size; ++i) {
+    const double x = normals.x[i], y = normals.y[i], z = normals.z[i];
+    const double length = std::sqrt(x * x + y * y + z * z);
     // A unit vector stays what it is to the last bit.
-    if (length > 0.0 && std::abs(length - 1.0) > 1e-6) {
-      sorted.x[i] = static_cast<float>(sorted.x[i] / length);
-      sorted.y[i] = static_cast<float>(sorted.y[i] / length);
-      sorted.z[i] = static_cast<float>(sorted.z[i] / length);
-    }
+    const double scale = length > 0.0 && std::abs(length - 1.0) > 1e-6 ? 1.0 / length : 1.0;
+    unit.x[i] = static_cast<float>(x * scale);
+    unit.y[i] = static_cast<float>(y * scale);
+    unit.z[i] = static_cast<float>(z * scale);
   }
-  return sorted;
+  return unit;
 }
 
 } // namespace
@@ -106,27 +105,43 @@ BilateralNormalsStatistics
 filterNormalsBilaterally(const BilateralNormalsParameters& parameters, PointsView points, MutableVectorsView normals,
                          const NeighborSearch& search, const ProgressCallback& progress)
 {
+  const PointIndex index(points, parameters.number_of_threads);
+  SoaBuffer sorted(index.size());
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    sorted.x[k] = normals.x[index.order()[k]];
+    sorted.y[k] = normals.y[index.order()[k]];
+    sorted.z[k] = normals.z[index.order()[k]];
+  }
+  BilateralNormalsStatistics statistics = filterNormalsBilaterally(parameters, index, sorted.view(), search, progress);
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    normals.x[index.order()[k]] = sorted.x[k];
+    normals.y[index.order()[k]] = sorted.y[k];
+    normals.z[index.order()[k]] = sorted.z[k];
+  }
+  return statistics;
+}
+
+BilateralNormalsStatistics
+filterNormalsBilaterally(const BilateralNormalsParameters& parameters, const PointIndex& points, MutableVectorsView normals,
+                         const NeighborSearch& search, const ProgressCallback& progress)
+{
   const auto start = std::chrono::steady_clock::now();
   validate(parameters);
   if (parameters.radius <= 0.0 && parameters.neighbors == 0)
     throw InvalidParameter("bilateral radius or neighbors must be set; both are 0");
   const std::size_t threads = resolveThreads(parameters.number_of_threads);
-  const std::vector<std::uint32_t> order = hilbertOrder(points, threads);
-  const SortedVectors<float> sorted = gather<float>(points, {}, order, kFarAway);
-  SortedVectors<float> current = gatherUnit(normals, order), next(order.size());
-  SoaBuffer unused;
-  const PointsView view = sorted.floatView(unused);
-  ClusterTree tree;
-  tree.fit(view, threads);
+  const PointsView view = points.sorted();
+  const std::size_t count = view.size;
+  SortedVectors<float> current = unitVectors(normals), next(count);
 
   kernels::BilateralNormals a;
-  a.queries = a.data = sorted.vectors();
+  a.queries = a.data = {view.x, view.y, view.z};
   AlignedArray<float> radius_sq;
   double longest = parameters.radius;
-  if (parameters.neighbors > 0) {
-    radius_sq = neighborRadii(tree, view, parameters.neighbors, threads);
+  if (parameters.neighbors > 0 && count > 0) {
+    radius_sq = neighborRadii(points.tree(), view, parameters.neighbors, threads);
     a.radius.per_query = radius_sq.data();
-    longest = order.empty() ? 0.0 : std::sqrt(*std::max_element(radius_sq.begin(), radius_sq.begin() + order.size()));
+    longest = std::sqrt(*std::max_element(radius_sq.begin(), radius_sq.begin() + count));
   }
   a.radius.radius_sq = static_cast<float>(parameters.radius * parameters.radius);
   a.angle_falloff = static_cast<float>(1.0 / (1.0 - std::cos(parameters.angle * kPi / 180.0)));
@@ -134,28 +149,26 @@ filterNormalsBilaterally(const BilateralNormalsParameters& parameters, PointsVie
 
   BilateralNormalsStatistics statistics;
   Neighborhoods near;
-  if (parameters.iterations > 0)
-    near = search                     ? transposeLists(search(view, view, longest), order.size())
-           : parameters.neighbors > 0 ? findNeighborhoods(tree, view, radius_sq.data(), threads)
-                                      : findNeighborhoods(tree, view, parameters.radius, threads);
+  if (parameters.iterations > 0 && count > 0)
+    near = search                     ? transposeLists(search(view, view, longest), count)
+           : parameters.neighbors > 0 ? findNeighborhoods(points.tree(), view, radius_sq.data(), threads)
+                                      : findNeighborhoods(points.tree(), view, parameters.radius, threads);
   const kernels::Candidates candidates = candidatesOf(near);
   for (unsigned round = 0; round < parameters.iterations; ++round) {
     if (progress && !progress(static_cast<double>(round) / parameters.iterations))
       throw Cancelled();
     a.query_normals = a.data_normals = current.vectors();
     a.out = next.vectors();
-    parallelBlocks(blockCount(order.size()), kBlocksPerTask, threads,
+    parallelBlocks(blockCount(count), kBlocksPerTask, threads,
                    [&](std::size_t begin, std::size_t end) { kernels::active().bilateral_normals(candidates, a, begin, end); });
     const RoundSum sum = normalise(current, next, threads);
-    statistics.mean_change.push_back(sum.change * 180.0 / kPi / static_cast<double>(std::max<std::size_t>(1, order.size())));
+    statistics.mean_change.push_back(sum.change * 180.0 / kPi / static_cast<double>(std::max<std::size_t>(1, count)));
     statistics.isolated_points = sum.isolated;
     std::swap(current, next);
   }
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    normals.x[order[i]] = current.x[i];
-    normals.y[order[i]] = current.y[i];
-    normals.z[order[i]] = current.z[i];
-  }
+  std::copy_n(current.x.data(), count, normals.x);
+  std::copy_n(current.y.data(), count, normals.y);
+  std::copy_n(current.z.data(), count, normals.z);
   if (progress && !progress(1.0))
     throw Cancelled();
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -63,7 +63,7 @@ gpfInit(const GPFParameters& parameters, const GPFInput& input)
   if (parameters.support_radius <= 0.0)
     throw InvalidParameter("support_radius must be set before the recursion starts; it is 0");
   for (std::size_t i = 0; input.samples && i < input.sample_count; ++i)
-    if (input.samples[i] >= input.points.size)
+    if (input.samples[i] >= (input.index ? input.index->size() : input.points.size))
       throw InvalidParameter("a sample index is not below the number of points");
   if (needsDouble(parameters))
     return GPFState(std::make_unique<GPFSolver<double>>(parameters, input));

@@ -111,37 +111,63 @@ GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
 }
 
 template <typename Real>
+kernels::Vectors<Real>
+GPFSolver<Real>::points() const
+{
+  if constexpr (std::is_same<Real, float>::value) {
+    const PointsView sorted = index_->sorted();
+    return {sorted.x, sorted.y, sorted.z};
+  } else
+    return exact_points_.vectors();
+}
+
+template <typename Real>
 void
 GPFSolver<Real>::sortInput(const GPFInput& input)
 {
-  const std::vector<std::uint32_t> order = hilbertOrder(input.points, threads_);
-  points_ = gather<Real>(input.points, input.remainders, order, Real(kFarAway));
-  point_normals_ = gather<Real>(input.normals, {}, order, Real(0));
-  point_tree_.fit(points_.floatView(float_data_), threads_);
-
-  if (!input.samples) {
-    sample_order_ = order;
-    samples_ = gather<Real>(input.points, input.remainders, order, Real(kFarAway));
+  index_ = input.index;
+  std::vector<std::uint32_t> order; // of the arrays in `input`
+  if (index_) {
+    order.resize(index_->size());
+    std::iota(order.begin(), order.end(), std::uint32_t{0});
   } else {
-    std::vector<std::uint32_t> place(order.size()); // of each input point among the sorted ones
-    for (std::size_t i = 0; i < order.size(); ++i)
-      place[order[i]] = static_cast<std::uint32_t>(i);
-    sample_order_.resize(input.sample_count);
-    std::iota(sample_order_.begin(), sample_order_.end(), std::uint32_t{0});
-    std::sort(sample_order_.begin(), sample_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const std::uint32_t place_a = place[input.samples[a]], place_b = place[input.samples[b]];
-      return place_a != place_b ? place_a < place_b : a < b;
-    });
-    seeds_.resize(input.sample_count);
-    std::vector<std::uint32_t> seed_points(input.sample_count);
-    for (std::size_t s = 0; s < input.sample_count; ++s) {
-      seed_points[s] = input.samples[sample_order_[s]];
-      seeds_[s] = place[seed_points[s]];
-    }
-    samples_ = gather<Real>(input.points, input.remainders, seed_points, Real(kFarAway));
-    sample_normals_ = gather<Real>(input.normals, {}, seed_points, Real(0));
+    own_index_ = std::make_unique<PointIndex>(input.points, parameters.number_of_threads);
+    index_ = own_index_.get();
+    order = index_->order();
   }
+  const PointsView positions = input.index ? index_->sorted() : input.points;
+  if constexpr (!std::is_same<Real, float>::value)
+    exact_points_ = gather<Real>(positions, input.remainders, order, Real(kFarAway));
+  point_normals_ = gather<Real>(input.normals, {}, order, Real(0));
+  if (!input.samples) {
+    samples_ = gather<Real>(positions, input.remainders, order, Real(kFarAway));
+    sample_order_ = std::move(order);
+  } else
+    sortSamples(input, positions, order);
   isolated_.assign(sample_order_.size(), 0);
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::sortSamples(const GPFInput& input, PointsView positions, const std::vector<std::uint32_t>& order)
+{
+  std::vector<std::uint32_t> place(order.size()); // of each input point among the sorted ones
+  for (std::size_t i = 0; i < order.size(); ++i)
+    place[order[i]] = static_cast<std::uint32_t>(i);
+  sample_order_.resize(input.sample_count);
+  std::iota(sample_order_.begin(), sample_order_.end(), std::uint32_t{0});
+  std::sort(sample_order_.begin(), sample_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t place_a = place[input.samples[a]], place_b = place[input.samples[b]];
+    return place_a != place_b ? place_a < place_b : a < b;
+  });
+  seeds_.resize(input.sample_count);
+  std::vector<std::uint32_t> seed_points(input.sample_count);
+  for (std::size_t s = 0; s < input.sample_count; ++s) {
+    seed_points[s] = input.samples[sample_order_[s]];
+    seeds_[s] = place[seed_points[s]];
+  }
+  samples_ = gather<Real>(positions, input.remainders, seed_points, Real(kFarAway));
+  sample_normals_ = gather<Real>(input.normals, {}, seed_points, Real(0));
 }
 
 /** rho_n = 1 + sum over n' != n of theta(|v_n - v_n'|), within h / 2; the point itself contributes the 1. */
@@ -153,12 +179,14 @@ GPFSolver<Real>::evaluateDensities()
       parameters.density_weights || parameters.posterior_normalization || parameters.variance_update != VarianceUpdate::Fixed;
   if (!weighted)
     return;
-  point_weight_ = AlignedArray<Real>(points_.size() + kQueryBlock, Real(1));
-  inverse_density_ = AlignedArray<Real>(points_.size() + kQueryBlock, Real(1));
+  point_weight_ = AlignedArray<Real>(pointCount() + kQueryBlock, Real(1));
+  inverse_density_ = AlignedArray<Real>(pointCount() + kQueryBlock, Real(1));
   if (!parameters.density_weights)
     return;
-  gaussianSums(points_, points_, neighborhoods(point_tree_, points_, points_, data_radius_), data_radius_, 1.0, inverse_density_);
-  for (std::size_t n = 0; n < points_.size(); ++n)
+  const PointsView sorted = index_->sorted();
+  gaussianSums(points(), pointCount(), points(), neighborhoods(index_->tree(), sorted, sorted, data_radius_), data_radius_, 1.0,
+               inverse_density_);
+  for (std::size_t n = 0; n < pointCount(); ++n)
     inverse_density_[n] = Real(1) / std::max(Real(1), inverse_density_[n]);
 }
 
@@ -184,10 +212,10 @@ GPFSolver<Real>::evaluatePosteriorDenominators()
 {
   const double omega = parameters.outlier_weight;
   const double c = std::pow(2.0 * kPi * variance_, 1.5) * omega / (1.0 - omega) * static_cast<double>(samples_.size()) /
-                   static_cast<double>(points_.size());
-  gaussianSums(points_, samples_, current(posterior_neighborhoods_, sample_tree_, samples_, points_), data_radius_,
+                   static_cast<double>(pointCount());
+  gaussianSums(points(), pointCount(), samples_.vectors(), current(posterior_neighborhoods_, true, false), data_radius_,
                data_radius_ * data_radius_ / (2.0 * variance_), point_weight_);
-  for (std::size_t n = 0; n < points_.size(); ++n) {
+  for (std::size_t n = 0; n < pointCount(); ++n) {
     const Real denominator = point_weight_[n] + static_cast<Real>(c);
     point_weight_[n] = denominator > Real(0) ? Real(1) / denominator : Real(0);
   }
@@ -202,7 +230,7 @@ GPFSolver<Real>::evaluateDataTerm()
   kernels::Projection<Real> a;
   a.queries = samples_.vectors();
   a.query_normals = sampleNormals().vectors();
-  a.data = points_.vectors();
+  a.data = points();
   a.data_normals = point_normals_.vectors();
   a.radius.radius_sq = static_cast<Real>(data_radius_ * data_radius_);
   a.falloff = static_cast<Real>(data_radius_ * data_radius_ / (2.0 * variance_));
@@ -221,7 +249,7 @@ GPFSolver<Real>::evaluateDataTerm()
   a.cross = sums.cross.vectors();
   a.scatter_diagonal = sums.diagonal.vectors();
   a.scatter_mixed = sums.mixed.vectors();
-  const kernels::Candidates candidates = candidatesOf(current(data_neighborhoods_, point_tree_, points_, samples_));
+  const kernels::Candidates candidates = candidatesOf(current(data_neighborhoods_, false, true));
   parallelBlocks(blockCount(samples_.size()), kBlocksPerTask, threads_,
                  [&](std::size_t begin, std::size_t end) { projectionKernel<Real>()(candidates, a, begin, end); });
   return sums;
@@ -243,11 +271,11 @@ GPFSolver<Real>::evaluateRepulsion()
   if (repulsionWeight() == 0.0)
     return {};
   const double h = parameters.support_radius;
-  const Neighborhoods& near = current(repulsion_neighborhoods_, sample_tree_, samples_, samples_);
+  const Neighborhoods& near = current(repulsion_neighborhoods_, true, true);
   AlignedArray<Real> sample_density;
   if (parameters.density_weights) {
     sample_density = AlignedArray<Real>(samples_.size() + kQueryBlock);
-    gaussianSums(samples_, samples_, near, h, 4.0, sample_density); // w_m; theta(r) = exp(-4 r^2 / h^2)
+    gaussianSums(samples_.vectors(), size(), samples_.vectors(), near, h, 4.0, sample_density); // w_m; theta(r) = exp(-4 r^2 / h^2)
   }
   RepulsionSums sums{AlignedArray<Real>(samples_.size() + kQueryBlock), SortedVectors<Real>(samples_.size())};
   kernels::Repulsion<Real> a;
@@ -342,40 +370,39 @@ GPFSolver<Real>::move(const DataSums& data, const RepulsionSums& repulsion)
 
 template <typename Real>
 void
-GPFSolver<Real>::gaussianSums(const SortedVectors<Real>& queries, const SortedVectors<Real>& data,
+GPFSolver<Real>::gaussianSums(kernels::Vectors<Real> queries, std::size_t count, kernels::Vectors<Real> data,
                               const Neighborhoods& neighborhoods, double radius, double falloff, AlignedArray<Real>& out) const
 {
   kernels::GaussianSums<Real> a;
-  a.queries = queries.vectors();
-  a.data = data.vectors();
+  a.queries = queries;
+  a.data = data;
   a.radius.radius_sq = static_cast<Real>(radius * radius);
   a.falloff = static_cast<Real>(falloff);
   a.out = out.data();
   const kernels::Candidates candidates = candidatesOf(neighborhoods);
-  parallelBlocks(blockCount(queries.size()), kBlocksPerTask, threads_,
+  parallelBlocks(blockCount(count), kBlocksPerTask, threads_,
                  [&](std::size_t begin, std::size_t end) { gaussianKernel<Real>()(candidates, a, begin, end); });
 }
 
 template <typename Real>
 Neighborhoods
-GPFSolver<Real>::neighborhoods(const ClusterTree& tree, const SortedVectors<Real>& data, const SortedVectors<Real>& queries,
-                               double reach)
+GPFSolver<Real>::neighborhoods(const ClusterTree& tree, PointsView data, PointsView queries, double reach) const
 {
-  const PointsView query_view = queries.floatView(float_queries_);
   if (search_)
-    return transposeLists(search_(data.floatView(float_data_), query_view, reach), data.size());
-  return findNeighborhoods(tree, query_view, reach, threads_);
+    return transposeLists(search_(data, queries, reach), data.size);
+  return findNeighborhoods(tree, queries, reach, threads_);
 }
 
 template <typename Real>
 const Neighborhoods&
-GPFSolver<Real>::current(MovingNeighborhoods& moving, const ClusterTree& tree, const SortedVectors<Real>& data,
-                         const SortedVectors<Real>& queries)
+GPFSolver<Real>::current(MovingNeighborhoods& moving, bool data_are_samples, bool queries_are_samples)
 {
   if (moving.stale()) {
-    if (&tree == &sample_tree_)
-      sample_tree_.fit(samples_.floatView(float_data_), threads_);
-    moving.set(neighborhoods(tree, data, queries, moving.reach()));
+    const PointsView samples = samples_.floatView(float_samples_), sorted = index_->sorted();
+    if (data_are_samples)
+      sample_tree_.fit(samples, threads_);
+    moving.set(neighborhoods(data_are_samples ? sample_tree_ : index_->tree(), data_are_samples ? samples : sorted,
+                             queries_are_samples ? samples : sorted, moving.reach()));
   }
   return moving.get();
 }
@@ -395,11 +422,12 @@ template <typename Real>
 void
 GPFSolver<Real>::displacements(MutableVectorsView out) const
 {
+  const kernels::Vectors<Real> from = points();
   for (std::size_t s = 0; s < size(); ++s) {
     const std::size_t seed = seedOf(s);
-    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s] - points_.x[seed]);
-    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s] - points_.y[seed]);
-    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s] - points_.z[seed]);
+    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s] - from.x[seed]);
+    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s] - from.y[seed]);
+    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s] - from.z[seed]);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <pcl_gpf/core/cluster_tree.h>
 #include <pcl_gpf/core/operators/gpf.h>
 
+#include <memory>
 #include <vector>
 
 namespace pcl_gpf {
@@ -87,6 +88,8 @@ private:
   void
   sortInput(const GPFInput& input);
   void
+  sortSamples(const GPFInput& input, PointsView positions, const std::vector<std::uint32_t>& order);
+  void
   evaluateDensities();
   void
   evaluatePosteriorDenominators();
@@ -99,12 +102,15 @@ private:
   double
   repulsionWeight() const;
   void
-  gaussianSums(const SortedVectors<Real>& queries, const SortedVectors<Real>& data, const Neighborhoods& neighborhoods,
+  gaussianSums(kernels::Vectors<Real> queries, std::size_t count, kernels::Vectors<Real> data, const Neighborhoods& neighborhoods,
                double radius, double falloff, AlignedArray<Real>& out) const;
   Neighborhoods
-  neighborhoods(const ClusterTree& tree, const SortedVectors<Real>& data, const SortedVectors<Real>& queries, double reach);
+  neighborhoods(const ClusterTree& tree, PointsView data, PointsView queries, double reach) const;
   const Neighborhoods&
-  current(MovingNeighborhoods& moving, const ClusterTree& tree, const SortedVectors<Real>& data, const SortedVectors<Real>& queries);
+  current(MovingNeighborhoods& moving, bool data_are_samples, bool queries_are_samples);
+  kernels::Vectors<Real>
+  points() const;
+  std::size_t pointCount() const { return index_->size(); }
   const SortedVectors<Real>&
   sampleNormals() const
   {
@@ -117,8 +123,10 @@ private:
   std::size_t threads_;
   double data_radius_; ///< h / 2
 
-  SortedVectors<Real> points_, point_normals_;
-  ClusterTree point_tree_;
+  std::unique_ptr<PointIndex> own_index_; ///< when the caller gave none
+  const PointIndex* index_;
+  SortedVectors<Real> exact_points_; ///< only for Real = double; float reads the index
+  SortedVectors<Real> point_normals_;
   std::vector<std::uint32_t> sample_order_; ///< rank of the sample, in the caller's order, at each sorted place
   std::vector<std::uint32_t> seeds_;        ///< empty: sample s was seeded by point s
   SortedVectors<Real> samples_, sample_normals_;
@@ -128,7 +136,7 @@ private:
   AlignedArray<Real> point_weight_;  ///< 1 / denominator of eq. 3, or 1
   AlignedArray<Real> inverse_density_; ///< 1 / rho_n, or 1
   MovingNeighborhoods data_neighborhoods_, posterior_neighborhoods_, repulsion_neighborhoods_;
-  SoaBuffer float_data_, float_queries_; ///< only for Real = double
+  SoaBuffer float_samples_; ///< only for Real = double
   double variance_;
   unsigned iteration_ = 0;
 };

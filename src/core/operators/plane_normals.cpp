@@ -92,41 +92,54 @@ std::size_t
 estimatePlaneNormals(const PlaneNormalsParameters& parameters, PointsView points, MutableVectorsView normals,
                      float* surface_variation)
 {
+  const PointIndex index(points, parameters.number_of_threads);
+  SoaBuffer sorted(index.size());
+  AlignedArray<float> variation(surface_variation ? index.size() : 0);
+  const std::size_t failed =
+      estimatePlaneNormals(parameters, index, sorted.view(), surface_variation ? variation.data() : nullptr);
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    normals.x[index.order()[k]] = sorted.x[k];
+    normals.y[index.order()[k]] = sorted.y[k];
+    normals.z[index.order()[k]] = sorted.z[k];
+    if (surface_variation)
+      surface_variation[index.order()[k]] = variation[k];
+  }
+  return failed;
+}
+
+std::size_t
+estimatePlaneNormals(const PlaneNormalsParameters& parameters, const PointIndex& points, MutableVectorsView normals,
+                     float* surface_variation)
+{
   checkRange("normal radius", parameters.radius, parameters.radius > 0.0, "> 0");
   const std::size_t threads = resolveThreads(parameters.number_of_threads);
-  const std::vector<std::uint32_t> order = hilbertOrder(points, threads);
-  const SortedVectors<float> sorted = gather<float>(points, {}, order, kFarAway);
-  SoaBuffer unused;
-  const PointsView view = sorted.floatView(unused);
-  ClusterTree tree;
-  tree.fit(view, threads);
-
-  MomentSums sums(order.size());
+  const PointsView view = points.sorted();
+  MomentSums sums(view.size);
   kernels::Moments a;
-  a.queries = a.data = sorted.vectors();
+  a.queries = a.data = {view.x, view.y, view.z};
   a.radius.radius_sq = static_cast<float>(parameters.radius * parameters.radius);
   a.count = sums.count.data();
   a.mean = sums.mean.vectors();
   a.scatter_diagonal = sums.diagonal.vectors();
   a.scatter_mixed = sums.mixed.vectors();
-  const Neighborhoods near = findNeighborhoods(tree, view, parameters.radius, threads);
+  const Neighborhoods near = findNeighborhoods(points.tree(), view, parameters.radius, threads);
   const kernels::Candidates candidates = candidatesOf(near);
-  parallelBlocks(blockCount(order.size()), kBlocksPerTask, threads,
+  parallelBlocks(blockCount(view.size), kBlocksPerTask, threads,
                  [&](std::size_t begin, std::size_t end) { kernels::active().moments(candidates, a, begin, end); });
 
-  std::vector<std::size_t> failures((order.size() + kPointsPerTask - 1) / kPointsPerTask);
-  parallelBlocks(order.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> failures((view.size + kPointsPerTask - 1) / kPointsPerTask);
+  parallelBlocks(view.size, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<float> distances_sq;
     std::vector<std::uint32_t> indices;
     for (std::size_t i = begin; i < end; ++i) {
       const bool few = sums.count[i] < static_cast<float>(kFewestNeighbors);
-      const PlaneFit fit = few ? fitNearest(tree, view, i, distances_sq, indices) : fitMoments(sums, i);
+      const PlaneFit fit = few ? fitNearest(points.tree(), view, i, distances_sq, indices) : fitMoments(sums, i);
       failures[begin / kPointsPerTask] += !fit.spans_plane;
-      normals.x[order[i]] = static_cast<float>(fit.normal[0]);
-      normals.y[order[i]] = static_cast<float>(fit.normal[1]);
-      normals.z[order[i]] = static_cast<float>(fit.normal[2]);
+      normals.x[i] = static_cast<float>(fit.normal[0]);
+      normals.y[i] = static_cast<float>(fit.normal[1]);
+      normals.z[i] = static_cast<float>(fit.normal[2]);
       if (surface_variation)
-        surface_variation[order[i]] = static_cast<float>(fit.surface_variation);
+        surface_variation[i] = static_cast<float>(fit.surface_variation);
     }
   });
   std::size_t failed = 0;

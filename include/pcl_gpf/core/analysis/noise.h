@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
 
 namespace pcl_gpf {
@@ -15,5 +16,9 @@ namespace pcl_gpf {
  */
 PCL_GPF_CORE_EXPORT double
 estimateNoise(PointsView points, double spacing, unsigned number_of_threads = 0);
+
+/** \brief The same on points that are sorted already. */
+PCL_GPF_CORE_EXPORT double
+estimateNoise(const PointIndex& points, double spacing, unsigned number_of_threads = 0);
 
 } // namespace pcl_gpf

@@ -5,6 +5,7 @@
 #include <pcl_gpf/core/operators/bilateral_normals.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
 
 #include <string>
@@ -23,6 +24,10 @@ struct CloudScale {
 /** \brief Measures a cloud. Cost: a fraction of one filter iteration. */
 PCL_GPF_CORE_EXPORT CloudScale
 measureScale(PointsView points, unsigned number_of_threads = 0);
+
+/** \brief The same on points that are sorted already. */
+PCL_GPF_CORE_EXPORT CloudScale
+measureScale(const PointIndex& points, unsigned number_of_threads = 0);
 
 /** \brief Where the value of a parameter came from. */
 struct ParameterOrigin {

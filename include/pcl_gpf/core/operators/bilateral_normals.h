@@ -4,6 +4,7 @@
 #include <pcl_gpf/core/export.h>
 #include <pcl_gpf/core/iteration.h>
 #include <pcl_gpf/core/neighbor_lists.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
 
 #include <cstddef>
@@ -58,6 +59,14 @@ struct BilateralNormalsStatistics {
 PCL_GPF_CORE_EXPORT BilateralNormalsStatistics
 filterNormalsBilaterally(const BilateralNormalsParameters& parameters,
                          PointsView points,
+                         MutableVectorsView normals,
+                         const NeighborSearch& search = {},
+                         const ProgressCallback& progress = {});
+
+/** \brief The same on points that are sorted already; normals in sorted order. */
+PCL_GPF_CORE_EXPORT BilateralNormalsStatistics
+filterNormalsBilaterally(const BilateralNormalsParameters& parameters,
+                         const PointIndex& points,
                          MutableVectorsView normals,
                          const NeighborSearch& search = {},
                          const ProgressCallback& progress = {});

@@ -5,6 +5,7 @@
 #include <pcl_gpf/core/iteration.h>
 #include <pcl_gpf/core/neighbor_lists.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace pcl_gpf {
 
-/** \brief What the GPF operator works on. Everything is copied by gpfInit(). */
+/** \brief What the GPF operator works on. gpfInit() copies it, but for `index`, which must outlive the state. */
 struct GPFInput {
   PointsView points;                  ///< V: N finite positions in the normalised frame (LocalFrame)
   PointsView remainders;              ///< optional (null pointers: 0): what rounding `points` to float cut off; used by the paper's
@@ -21,7 +22,9 @@ struct GPFInput {
   NormalsView normals;                ///< b_n: N unit vectors, sign free
   const std::uint32_t* samples = nullptr; ///< seeds of X^0 as indices into V; null = every point, in order
   std::size_t sample_count = 0;       ///< M when `samples` is given
-  NeighborSearch search;              ///< replaces the built-in neighbour search when set
+  const PointIndex* index = nullptr;      ///< V sorted already: `points` is not read; normals, remainders, samples and all results
+                                          ///< are then in sorted order
+  NeighborSearch search;                  ///< replaces the built-in neighbour search when set
 };
 
 /** \brief State of the GPF recursion: V, X^k, sigma^2 and the neighbour structures. Movable, not copyable. */

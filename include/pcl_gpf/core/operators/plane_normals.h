@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
 
 #include <cstddef>
@@ -29,6 +30,13 @@ struct PlaneNormalsParameters {
 PCL_GPF_CORE_EXPORT std::size_t
 estimatePlaneNormals(const PlaneNormalsParameters& parameters,
                      PointsView points,
+                     MutableVectorsView normals,
+                     float* surface_variation = nullptr);
+
+/** \brief The same on points that are sorted already; results in sorted order. */
+PCL_GPF_CORE_EXPORT std::size_t
+estimatePlaneNormals(const PlaneNormalsParameters& parameters,
+                     const PointIndex& points,
                      MutableVectorsView normals,
                      float* surface_variation = nullptr);
 

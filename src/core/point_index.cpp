@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/parallel.h>
+#include <pcl_gpf/core/point_index.h>
+
+#include "sorted_points.h"
+
+#include <algorithm>
+
+namespace pcl_gpf {
+
+PointIndex::PointIndex(PointsView points, unsigned number_of_threads)
+{
+  const std::size_t threads = resolveThreads(number_of_threads);
+  order_ = hilbertOrder(points, threads);
+  positions_ = SoaBuffer(size() + kQueryBlock);
+  const auto one = [this](const float* from, AlignedArray<float>& to) {
+    for (std::size_t k = 0; k < size(); ++k)
+      to[k] = from[order_[k]];
+    std::fill(to.begin() + size(), to.end(), kFarAway);
+  };
+  one(points.x, positions_.x);
+  one(points.y, positions_.y);
+  one(points.z, positions_.z);
+  tree_.fit(sorted(), threads);
+}
+
+} // namespace pcl_gpf

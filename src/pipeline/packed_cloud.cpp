@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "packed_cloud.h"
+
+#include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/sampling.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pcl_gpf {
+
+namespace {
+
+/** Ascending finite rows and the frame of their box. \throws UnsuitableData */
+std::vector<std::uint32_t>
+finiteRows(const DenoiseInput& input, LocalFrame& frame)
+{
+  std::vector<std::uint32_t> rows;
+  BoundingBox box;
+  for (std::size_t i = 0; i < input.size; ++i)
+    if (std::isfinite(input.x[i]) && std::isfinite(input.y[i]) && std::isfinite(input.z[i])) {
+      rows.push_back(static_cast<std::uint32_t>(i));
+      box.add(input.x[i], input.y[i], input.z[i]);
+    }
+  if (rows.empty())
+    throw UnsuitableData("no point has finite coordinates");
+  if (!(box.diagonal() > 0.0))
+    throw UnsuitableData("all points are identical");
+  if (!std::isfinite(box.diagonal()))
+    throw UnsuitableData("the extent of the points is beyond the range of double");
+  frame = localFrame(box);
+  return rows;
+}
+
+} // namespace
+
+Packed
+packPositions(const DenoiseInput& input, bool with_remainders, unsigned number_of_threads)
+{
+  Packed packed;
+  const std::vector<std::uint32_t> rows = finiteRows(input, packed.frame);
+  const double* columns[3] = {input.x, input.y, input.z};
+  const auto local = [&](std::size_t axis, std::uint32_t row) {
+    return (columns[axis][row] - packed.frame.origin[axis]) / packed.frame.scale;
+  };
+  {
+    SoaBuffer points(rows.size());
+    AlignedArray<float>* axes[3] = {&points.x, &points.y, &points.z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        (*axes[axis])[k] = static_cast<float>(local(axis, rows[k]));
+    packed.index = std::make_unique<PointIndex>(points.view(), number_of_threads);
+  }
+  packed.rows.resize(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    packed.rows[k] = rows[packed.index->order()[k]];
+  if (!with_remainders)
+    return packed;
+  packed.remainders = SoaBuffer(rows.size());
+  AlignedArray<float>* rests[3] = {&packed.remainders.x, &packed.remainders.y, &packed.remainders.z};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double exact = local(axis, packed.rows[k]);
+      (*rests[axis])[k] = static_cast<float>(exact - static_cast<double>(static_cast<float>(exact)));
+    }
+  return packed;
+}
+
+void
+packNormals(const DenoiseInput& input, Packed& packed)
+{
+  packed.normals = SoaBuffer(packed.rows.size());
+  for (std::size_t k = 0; k < packed.rows.size(); ++k) {
+    const std::size_t row = packed.rows[k];
+    const double x = input.normal_x ? input.normal_x[row] : 0.0, y = input.normal_x ? input.normal_y[row] : 0.0,
+                 z = input.normal_x ? input.normal_z[row] : 0.0;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    if (!(length > 1e-6) || !std::isfinite(length)) {
+      packed.missing_normals.push_back(static_cast<std::uint32_t>(k));
+      continue;
+    }
+    packed.normals.x[k] = static_cast<float>(x / length);
+    packed.normals.y[k] = static_cast<float>(y / length);
+    packed.normals.z[k] = static_cast<float>(z / length);
+  }
+}
+
+std::vector<std::uint32_t>
+drawSamples(const GPFParameters& gpf, const Packed& packed)
+{
+  std::vector<std::uint32_t> samples;
+  if (!(gpf.sample_ratio < 1.0))
+    return samples;
+  const std::size_t size = packed.rows.size();
+  const auto count = static_cast<std::size_t>(std::llround(gpf.sample_ratio * static_cast<double>(size)));
+  // Drawn among the finite rows in input order, so that the choice does not depend on the sorting.
+  std::vector<std::uint32_t> place(size);
+  for (std::size_t k = 0; k < size; ++k)
+    place[packed.index->order()[k]] = static_cast<std::uint32_t>(k);
+  samples = randomSubset(size, std::max<std::size_t>(1, count), gpf.seed);
+  for (std::uint32_t& sample : samples)
+    sample = place[sample];
+  return samples;
+}
+
+void
+unpack(const DenoiseInput& input, const Packed& packed, const GPFState& state, const std::vector<std::uint32_t>& samples,
+       DenoiseResult& result)
+{
+  const std::size_t count = state.size();
+  // Place of each output point among the recursion's results: samples are ascending already; all points follow the index.
+  std::vector<std::uint32_t> from(count);
+  if (samples.empty())
+    for (std::size_t k = 0; k < count; ++k)
+      from[packed.index->order()[k]] = static_cast<std::uint32_t>(k);
+  else
+    std::iota(from.begin(), from.end(), std::uint32_t{0});
+  result.sample_indices.resize(count);
+  for (std::size_t k = 0; k < count; ++k)
+    result.sample_indices[k] = packed.rows[samples.empty() ? from[k] : samples[k]];
+
+  const std::vector<std::uint8_t> isolated = state.isolated();
+  result.isolated.resize(count);
+  SoaBuffer vectors(count);
+  state.normals(vectors.view());
+  const auto take = [&](const AlignedArray<float>& values, std::vector<float>& to) {
+    to.resize(count);
+    for (std::size_t k = 0; k < count; ++k)
+      to[k] = values[from[k]];
+  };
+  take(vectors.x, result.normal_x);
+  take(vectors.y, result.normal_y);
+  take(vectors.z, result.normal_z);
+  state.displacements(vectors.view());
+  const auto move = [&](const double* start, const AlignedArray<float>& moves, std::vector<double>& to) {
+    to.resize(count);
+    for (std::size_t k = 0; k < count; ++k)
+      to[k] = start[result.sample_indices[k]] + packed.frame.lengthToWorld(static_cast<double>(moves[from[k]]));
+  };
+  move(input.x, vectors.x, result.x);
+  move(input.y, vectors.y, result.y);
+  move(input.z, vectors.z, result.z);
+  for (std::size_t k = 0; k < count; ++k)
+    result.isolated[k] = isolated[from[k]];
+}
+
+} // namespace pcl_gpf

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/core/local_frame.h>
+#include <pcl_gpf/core/operators/gpf.h>
+#include <pcl_gpf/core/point_index.h>
+#include <pcl_gpf/core/soa_buffer.h>
+#include <pcl_gpf/pipeline/denoise.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** Finite rows of the input in the normalised frame, sorted along the curve. */
+struct Packed {
+  LocalFrame frame;
+  std::vector<std::uint32_t> rows;   ///< of the input, in sorted order
+  std::unique_ptr<PointIndex> index;
+  SoaBuffer remainders;              ///< in sorted order; only for the paper's recursion
+  SoaBuffer normals;                 ///< in sorted order
+  std::vector<std::uint32_t> missing_normals; ///< sorted places
+};
+
+/** \throws UnsuitableData if nothing is finite or everything coincides */
+Packed
+packPositions(const DenoiseInput& input, bool with_remainders, unsigned number_of_threads);
+
+/** Takes the unit normals that the input has and notes the rest. */
+void
+packNormals(const DenoiseInput& input, Packed& packed);
+
+/** X^0 as sorted places, ascending by input row; empty = every point. */
+std::vector<std::uint32_t>
+drawSamples(const GPFParameters& gpf, const Packed& packed);
+
+/** Results of the recursion in ascending order of input rows. */
+void
+unpack(const DenoiseInput& input, const Packed& packed, const GPFState& state, const std::vector<std::uint32_t>& samples,
+       DenoiseResult& result);
+
+} // namespace pcl_gpf
