@@ -71,8 +71,11 @@ effectiveParameters(const std::vector<FilterParameter>& table, const Options& op
 std::string
 valueText(const ParameterValue& value)
 {
-  const double* number = std::get_if<double>(&value);
-  return number ? shortNumber(*number) : std::get<std::string>(value);
+  if (const double* number = std::get_if<double>(&value))
+    return shortNumber(*number);
+  if (const std::uint64_t* count = std::get_if<std::uint64_t>(&value))
+    return std::to_string(*count);
+  return std::get<std::string>(value);
 }
 
 } // namespace pcl_gpf

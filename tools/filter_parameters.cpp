@@ -56,7 +56,7 @@ count(const std::string& name, const std::string& field, const Access<unsigned>&
           [access](P& p, const std::string& text, const CloudScale&) {
             access(p) = static_cast<unsigned>(parseCount(text).value());
           },
-          [access](const P& p) { return ParameterValue(static_cast<double>(peek(access, p))); }};
+          [access](const P& p) { return ParameterValue(std::uint64_t{peek(access, p)}); }};
 }
 
 /** One of some words, each of which stands for a value. */

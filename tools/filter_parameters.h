@@ -5,6 +5,7 @@
 
 #include <pcl_gpf/pipeline/denoise.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <variant>
@@ -12,7 +13,7 @@
 
 namespace pcl_gpf {
 
-using ParameterValue = std::variant<double, std::string>;
+using ParameterValue = std::variant<double, std::uint64_t, std::string>;
 
 /** \brief One field of DenoiseParameters and the option that sets it. */
 struct FilterParameter {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_gpf {
 
@@ -19,9 +20,8 @@ parametersJson(const std::vector<EffectiveParameter>& parameters)
 {
   Json object = Json::object();
   for (const EffectiveParameter& parameter : parameters) {
-    const double* number = std::get_if<double>(&parameter.value);
     Json& entry = object[parameter.name];
-    entry["value"] = number ? Json(*number) : Json(std::get<std::string>(parameter.value));
+    std::visit([&entry](const auto& value) { entry["value"] = value; }, parameter.value);
     entry["origin"] = parameter.origin;
     entry["reason"] = parameter.reason;
   }
@@ -29,13 +29,14 @@ parametersJson(const std::vector<EffectiveParameter>& parameters)
 }
 
 Json
-iterationsJson(const std::vector<IterationStats>& iterations)
+iterationsJson(const DenoiseResult& result)
 {
   Json list = Json::array();
-  for (const IterationStats& stats : iterations)
-    list.push_back({{"variance", stats.variance},
+  for (const IterationStats& stats : result.iterations)
+    list.push_back({{"sigma", std::sqrt(stats.variance) * result.scale.diagonal},
+                    {"variance", stats.variance},
                     {"next_variance", stats.next_variance},
-                    {"mean_movement", stats.mean_movement},
+                    {"movement", stats.mean_movement},
                     {"max_movement", stats.max_movement},
                     {"posterior_sum", stats.posterior_sum},
                     {"isolated", stats.isolated_points},
@@ -64,7 +65,7 @@ filterReport(const FilterRun& run, const DenoiseResult& result, const std::vecto
   report["scale"] = {{"spacing", result.scale.spacing}, {"noise", result.scale.noise},
                      {"diagonal", result.scale.diagonal}, {"h0", result.scale.h0}};
   report["parameters"] = parametersJson(run.parameters);
-  report["iterations"] = iterationsJson(result.iterations);
+  report["iterations"] = iterationsJson(result);
   report["movement"] = {{"mean", run.movement.mean}, {"rms", run.movement.rms}, {"p95", run.movement.p95},
                         {"max", run.movement.max}};
   report["threads"] = run.threads;

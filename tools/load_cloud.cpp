@@ -3,6 +3,7 @@
 
 #include "console.h"
 
+#include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/soa_buffer.h>
 #include <pcl_gpf/io/read_cloud.h>
@@ -18,6 +19,29 @@ bool
 isFinite(const CloudCoordinates& points, std::size_t i)
 {
   return std::isfinite(points.x[i]) && std::isfinite(points.y[i]) && std::isfinite(points.z[i]);
+}
+
+bool
+hasExtent(const LoadedCloud& cloud)
+{
+  const double diagonal = cloud.box.diagonal();
+  return diagonal > 0.0 && std::isfinite(diagonal);
+}
+
+SoaBuffer
+finitePoints(const LoadedCloud& cloud, const LocalFrame& frame)
+{
+  SoaBuffer local(cloud.finite);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.file.size(); ++i) {
+    if (!isFinite(cloud.coordinates, i))
+      continue;
+    local.x[count] = frame.toLocal(cloud.coordinates.x[i], 0);
+    local.y[count] = frame.toLocal(cloud.coordinates.y[i], 1);
+    local.z[count] = frame.toLocal(cloud.coordinates.z[i], 2);
+    ++count;
+  }
+  return local;
 }
 
 } // namespace
@@ -56,27 +80,28 @@ requireUsable(const LoadedCloud& cloud)
 }
 
 CloudScale
+measureSpacing(const LoadedCloud& cloud, unsigned threads)
+{
+  CloudScale scale;
+  if (!hasExtent(cloud))
+    return scale;
+  const LocalFrame frame = localFrame(cloud.box);
+  scale.spacing = frame.lengthToWorld(estimateSpacing(finitePoints(cloud, frame).view(), threads));
+  scale.diagonal = frame.scale;
+  return scale;
+}
+
+CloudScale
 measureCloud(const LoadedCloud& cloud, unsigned threads)
 {
-  const double diagonal = cloud.box.diagonal();
-  if (!(diagonal > 0.0) || !std::isfinite(diagonal))
+  if (!hasExtent(cloud))
     return {};
   const LocalFrame frame = localFrame(cloud.box);
-  SoaBuffer local(cloud.finite);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < cloud.file.size(); ++i) {
-    if (!isFinite(cloud.coordinates, i))
-      continue;
-    local.x[count] = frame.toLocal(cloud.coordinates.x[i], 0);
-    local.y[count] = frame.toLocal(cloud.coordinates.y[i], 1);
-    local.z[count] = frame.toLocal(cloud.coordinates.z[i], 2);
-    ++count;
-  }
-  CloudScale scale = measureScale(local.view(), threads);
+  CloudScale scale = measureScale(finitePoints(cloud, frame).view(), threads);
   scale.spacing = frame.lengthToWorld(scale.spacing);
   scale.noise = frame.lengthToWorld(scale.noise);
   scale.h0 = frame.lengthToWorld(scale.h0);
-  scale.diagonal = diagonal;
+  scale.diagonal = frame.scale;
   return scale;
 }
 

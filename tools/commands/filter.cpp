@@ -27,7 +27,7 @@ void
 refuseQuantized(const LoadedCloud& cloud, const CloudScale& scale, bool force, Console& console)
 {
   const Precision precision = judgePrecision(cloud, scale.spacing);
-  if (precision.verdict == Precision::Verdict::Quantized && !precision.stored_double && !force)
+  if (precision.verdict == Precision::Verdict::Quantized && !force)
     throw UnsuitableData(describe(precision) + "; --force goes on regardless");
   if (precision.verdict != Precision::Verdict::Fine)
     console.warn(describe(precision));
@@ -66,8 +66,14 @@ allEffective(const Options& options, const DenoiseParameters& used, const Denois
   const auto origin = [&options](const char* name, bool preset) {
     return std::string(options.given(name) ? "user" : preset ? "preset" : "default");
   };
+  for (EffectiveParameter& parameter : list)
+    if (parameter.name == "initial-variance" && used.gpf.initial_variance == 0.0 && !result.iterations.empty()) {
+      parameter.value = result.iterations.front().variance;
+      parameter.origin = "estimated";
+      parameter.reason = "(h / 2)^2, squared box diagonals";
+    }
   list.push_back({"samples", used.gpf.sample_ratio, origin("samples", used.gpf.sample_ratio != 1.0), "share of the points"});
-  list.push_back({"seed", static_cast<double>(used.gpf.seed), origin("seed", false), ""});
+  list.push_back({"seed", used.gpf.seed, origin("seed", false), ""});
   return list;
 }
 
@@ -88,7 +94,7 @@ runFilter(const Options& options)
   run.input_format = nameOf(cloud.file.format);
   run.seconds_read = stage.lap();
 
-  const CloudScale scale = measureCloud(cloud, threadCount(options));
+  const CloudScale scale = measureSpacing(cloud, threadCount(options));
   refuseQuantized(cloud, scale, options.given("force"), console);
   const bool file_normals = takesNormalsOfFile(options, cloud.file);
   run.normals = file_normals ? "file" : "estimated";

@@ -126,8 +126,7 @@ infoText(const Json& report)
 ExitCode
 runInfo(const Options& options)
 {
-  if (options.given("json"))
-    checkReport(options);
+  checkReport(options);
   Console console(options);
   const std::string& path = options.files()[0];
   const LoadedCloud cloud = loadCloud(path, console);
@@ -135,7 +134,8 @@ runInfo(const Options& options)
   writeReport(report, options);
   if (!options.given("json"))
     printToStandardOutput(infoText(report));
-  return kExitOk;
+  const bool nothing_finite = cloud.file.size() > 0 && cloud.finite == 0;
+  return nothing_finite ? kExitUnsuitable : kExitOk;
 }
 
 } // namespace
@@ -151,6 +151,7 @@ infoCommand()
                        {"pcl_gpf_tool info scan.ply --json", "for programs"},
                        {"pcl_gpf_tool convert scan.ply -o - | pcl_gpf_tool info -", "from standard input"}}};
   command.options = {jsonOption(), overwriteOption(), threadsOption()};
+  command.notes = "The exit code is 5 when there are points and none of them is finite; the report is given all the same.";
   command.run = runInfo;
   return command;
 }

@@ -40,7 +40,7 @@ runNormals(const Options& options)
   LoadedCloud cloud = loadCloud(options.files()[0], console);
   requireUsable(cloud);
   const CloudScale scale =
-      needsScale(normalTable(), options) ? measureCloud(cloud, threadCount(options)) : CloudScale();
+      needsScale(normalTable(), options) ? measureSpacing(cloud, threadCount(options)) : CloudScale();
   DenoiseParameters parameters = readParameters(normalTable(), options, scale, DenoiseParameters());
   parameters.number_of_threads = threadCount(options);
   const bool file_normals = options.given("keep") && cloud.file.hasNormals();
