@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "kernel_input.h"
+
+#include <array>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/** \file
+ * \brief Every kernel as a case: how to run it, and what a pair contributes to its sums, written out in double.
+ */
+namespace pcl_gpf::test {
+
+/** \brief A contribution of one pair to one sum. `scale` bounds what rounding is relative to. */
+struct Term {
+  double value;
+  double scale;
+};
+
+/** \brief One pair in double: d = datum - query. */
+struct Pair {
+  std::array<double, 3> d, query_normal, normal;
+  double r_sq, radius_sq, weight, density;
+
+  static double
+  dot(const std::array<double, 3>& a, const std::array<double, 3>& b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+  double height() const { return dot(d, normal); }
+  double cosine() const { return dot(normal, query_normal); }
+};
+
+template <typename Real>
+Pair
+pairOf(const KernelInput<Real>& in, std::size_t q, std::size_t j, double radius_sq)
+{
+  Pair pair;
+  pair.d = {static_cast<double>(in.data.x[j]) - in.queries.x[q], static_cast<double>(in.data.y[j]) - in.queries.y[q],
+            static_cast<double>(in.data.z[j]) - in.queries.z[q]};
+  pair.query_normal = {in.query_normals.x[q], in.query_normals.y[q], in.query_normals.z[q]};
+  pair.normal = {in.data_normals.x[j], in.data_normals.y[j], in.data_normals.z[j]};
+  pair.r_sq = Pair::dot(pair.d, pair.d);
+  pair.radius_sq = radius_sq;
+  pair.weight = in.weight[j];
+  pair.density = in.density[j];
+  return pair;
+}
+
+/** (1 - u^2 / 4)^4 for u < 2, else 0. */
+inline double
+bell(double u)
+{
+  return u < 2 ? std::pow(1 - u * u / 4, 4) : 0;
+}
+
+constexpr double kRadiusSq = 0.16;
+
+/** \brief What all cases share. */
+template <typename Real>
+struct KernelCase {
+  bool radius_per_query = false;
+
+  kernels::Radius<Real>
+  radius(const KernelInput<Real>& in) const
+  {
+    return {static_cast<Real>(kRadiusSq), radius_per_query ? in.radius_sq.data() : nullptr};
+  }
+  double
+  radiusSq(const KernelInput<Real>& in, std::size_t q) const
+  {
+    return radius_per_query ? static_cast<double>(in.radius_sq[q]) : static_cast<double>(static_cast<Real>(kRadiusSq));
+  }
+};
+
+template <typename Real>
+struct GaussianCase : KernelCase<Real> {
+  double falloff = 4;
+
+  std::string name() const { return "gaussian sums"; }
+  std::size_t channels() const { return 1; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<Real>& in, KernelOutput<Real>& out) const
+  {
+    kernels::GaussianSums<Real> a;
+    a.queries = in.queries.vectors();
+    a.data = in.data.vectors();
+    a.radius = this->radius(in);
+    a.falloff = static_cast<Real>(falloff);
+    a.out = out.channel(0);
+    if constexpr (std::is_same<Real, float>::value)
+      set.gaussian_sums_float(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+    else
+      set.gaussian_sums_double(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const double gaussian = std::exp(-falloff * p.r_sq / p.radius_sq);
+    return {{gaussian, gaussian}};
+  }
+};
+
+template <typename Real>
+struct ProjectionCase : KernelCase<Real> {
+  bool symmetric = false, normal_weights = false, weighted = false, variance = false;
+  double falloff = 3, symmetry_falloff = 7.5, normal_falloff = 3.4, normal_floor = 0.15;
+
+  std::string
+  name() const
+  {
+    return std::string("projection") + (symmetric ? " symmetric" : "") + (normal_weights ? " normals" : "") +
+           (weighted ? " weighted" : "") + (variance ? " variance" : "");
+  }
+  std::size_t channels() const { return variance ? 15 : 4; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<Real>& in, KernelOutput<Real>& out) const
+  {
+    kernels::Projection<Real> a;
+    a.queries = in.queries.vectors();
+    a.query_normals = in.query_normals.vectors();
+    a.data = in.data.vectors();
+    a.data_normals = in.data_normals.vectors();
+    a.radius = this->radius(in);
+    a.falloff = static_cast<Real>(falloff);
+    a.symmetric = symmetric;
+    a.symmetry_falloff = static_cast<Real>(symmetry_falloff);
+    a.normal_weights = normal_weights;
+    a.normal_falloff = static_cast<Real>(normal_falloff);
+    a.normal_floor = static_cast<Real>(normal_floor);
+    a.data_weight = weighted ? in.weight.data() : nullptr;
+    a.data_density = weighted ? in.density.data() : nullptr;
+    a.weight_sum = out.channel(0);
+    a.pull = out.vectors(1);
+    a.variance = variance;
+    if (variance) {
+      a.posterior_sum = out.channel(4);
+      a.residual_sq = out.channel(5);
+      a.cross = out.vectors(6);
+      a.scatter_diagonal = out.vectors(9);
+      a.scatter_mixed = out.vectors(12);
+    }
+    if constexpr (std::is_same<Real, float>::value)
+      set.projection_float(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+    else
+      set.projection_double(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const double reach = std::sqrt(p.r_sq);
+    const double posterior = std::exp(-falloff * p.r_sq / p.radius_sq) * (weighted ? p.weight : 1.0);
+    const double deviation = 1 - std::abs(p.cosine());
+    const double by_normal = normal_weights ? normal_floor + (1 - normal_floor) * bell(deviation * normal_falloff) : 1.0;
+    const double weight = posterior * (weighted ? p.density : 1.0) * by_normal;
+    const double share = symmetric ? bell(deviation * symmetry_falloff) : 0.0;
+    std::vector<Term> sums = {{weight, weight}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double own = share * Pair::dot(p.d, p.query_normal) * p.query_normal[i];
+      sums.push_back({weight * (p.height() * p.normal[i] + own) / (1 + share), weight * reach});
+    }
+    if (!variance)
+      return sums;
+    sums.push_back({posterior, posterior});
+    sums.push_back({posterior * p.height() * p.height(), posterior * p.r_sq});
+    for (std::size_t i = 0; i < 3; ++i)
+      sums.push_back({posterior * p.height() * p.normal[i], posterior * reach});
+    const auto& n = p.normal;
+    for (const double product : {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[1] * n[2], n[0] * n[2], n[0] * n[1]})
+      sums.push_back({posterior * product, posterior});
+    return sums;
+  }
+};
+
+template <typename Real>
+struct RepulsionCase : KernelCase<Real> {
+  bool weighted = false;
+  double falloff = 4, shortest = 1e-3;
+
+  std::string name() const { return std::string("repulsion") + (weighted ? " weighted" : ""); }
+  std::size_t channels() const { return 4; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<Real>& in, KernelOutput<Real>& out) const
+  {
+    kernels::Repulsion<Real> a;
+    a.queries = in.queries.vectors();
+    a.data = in.data.vectors();
+    a.data_normals = in.data_normals.vectors();
+    a.radius = this->radius(in);
+    a.falloff = static_cast<Real>(falloff);
+    a.shortest = static_cast<Real>(shortest);
+    a.data_weight = weighted ? in.weight.data() : nullptr;
+    a.weight_sum = out.channel(0);
+    a.push = out.vectors(1);
+    if constexpr (std::is_same<Real, float>::value)
+      set.repulsion_float(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+    else
+      set.repulsion_double(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    std::array<double, 3> t;
+    for (std::size_t i = 0; i < 3; ++i)
+      t[i] = -p.d[i] + p.height() * p.normal[i];
+    const double r_sq = Pair::dot(t, t);
+    if (r_sq == 0)
+      return {{0, 0}, {0, 0}, {0, 0}, {0, 0}};
+    const double r = std::max(std::sqrt(r_sq), shortest);
+    const double beta = std::exp(-falloff * r_sq / p.radius_sq) / r * (weighted ? p.weight : 1.0);
+    const double cancellation = std::sqrt(p.r_sq) / r; // t is a difference of longer vectors
+    std::vector<Term> sums = {{beta, beta * cancellation}};
+    for (const double component : t)
+      sums.push_back({beta * component, beta * r * cancellation});
+    return sums;
+  }
+};
+
+struct BilateralCase : KernelCase<float> {
+  bool sign_invariant = true;
+  double falloff = 1, angle_falloff = 7.5;
+
+  std::string name() const { return std::string("bilateral normals") + (sign_invariant ? " sign-invariant" : " oriented"); }
+  std::size_t channels() const { return 3; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    kernels::BilateralNormals a;
+    a.queries = in.queries.vectors();
+    a.query_normals = in.query_normals.vectors();
+    a.data = in.data.vectors();
+    a.data_normals = in.data_normals.vectors();
+    a.radius = radius(in);
+    a.falloff = static_cast<float>(falloff);
+    a.angle_falloff = static_cast<float>(angle_falloff);
+    a.sign_invariant = sign_invariant;
+    a.out = out.vectors(0);
+    set.bilateral_normals(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const double cosine = p.cosine();
+    const double deviation = (1 - (sign_invariant ? std::abs(cosine) : cosine)) * angle_falloff;
+    const double weight = std::exp(-falloff * p.r_sq / p.radius_sq) * std::exp(-deviation * deviation);
+    const double sign = sign_invariant && cosine < 0 ? -1 : 1;
+    const double rounding = 1 + 2 * deviation * angle_falloff; // of the exponent
+    std::vector<Term> sums;
+    for (const double component : p.normal)
+      sums.push_back({sign * weight * component, weight * rounding});
+    return sums;
+  }
+};
+
+struct MomentsCase : KernelCase<float> {
+  std::string name() const { return "moments"; }
+  std::size_t channels() const { return 10; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    kernels::Moments a;
+    a.queries = in.queries.vectors();
+    a.data = in.data.vectors();
+    a.radius = radius(in);
+    a.count = out.channel(0);
+    a.mean = out.vectors(1);
+    a.scatter_diagonal = out.vectors(4);
+    a.scatter_mixed = out.vectors(7);
+    set.moments(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const auto& d = p.d;
+    std::vector<Term> sums = {{1, 1}};
+    for (const double component : d)
+      sums.push_back({component, std::abs(component)});
+    for (const double product : {d[0] * d[0], d[1] * d[1], d[2] * d[2], d[1] * d[2], d[0] * d[2], d[0] * d[1]})
+      sums.push_back({product, std::abs(product)});
+    return sums;
+  }
+};
+
+/** \brief Calls visit(case) for every kernel in every combination of its switches. */
+template <typename Real, typename Visit>
+void
+forEveryCase(const Visit& visit)
+{
+  for (const bool per_query : {false, true}) {
+    visit(GaussianCase<Real>{{per_query}});
+    for (unsigned bits = 0; bits < 12; ++bits)
+      visit(ProjectionCase<Real>{{per_query}, (bits & 1) != 0, (bits & 2) != 0, bits >= 4, bits >= 8});
+    for (const bool weighted : {false, true})
+      visit(RepulsionCase<Real>{{per_query}, weighted});
+    if constexpr (std::is_same<Real, float>::value) {
+      for (const bool sign_invariant : {false, true})
+        visit(BilateralCase{{per_query}, sign_invariant});
+      visit(MomentsCase{{per_query}});
+    }
+  }
+}
+
+} // namespace pcl_gpf::test
