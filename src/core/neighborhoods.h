@@ -19,6 +19,7 @@ constexpr std::size_t kQueryBlock = 16;
  * A superset of the pairs in reach: kernels test the distance. Built once and used again while points have moved little.
  */
 struct Neighborhoods {
+  std::size_t query_count = 0;
   std::vector<std::size_t> run_offsets;  ///< blocks + 1
   std::vector<Run> runs;
 

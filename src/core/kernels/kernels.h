@@ -102,6 +102,7 @@ struct Moments {
 
 /** Candidates of the blocks, as in Neighborhoods. */
 struct Candidates {
+  std::size_t query_count = 0;
   const std::size_t* run_offsets = nullptr;
   const Run* runs = nullptr;
   const std::size_t* lane_offsets = nullptr; ///< not null: foreign lists
