@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/common/exceptions.h>
 #include <pcl_gpf/common/normal_estimation.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/parallel.h>
@@ -30,7 +31,12 @@ estimateNormalsOfFinitePoints(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& po
                               const Eigen::Vector3f& viewpoint,
                               const NormalEstimationParameters& parameters)
 {
-  check(parameters);
+  try {
+    check(parameters);
+  }
+  catch (...) {
+    rethrowAsPclException("estimateNormals");
+  }
   pcl::PointCloud<pcl::Normal> normals;
   if (points->empty()) // PCL's tree crashes on a query after an empty cloud
     return normals;

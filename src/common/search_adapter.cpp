@@ -11,7 +11,6 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kQueriesPerBlock = 512;
-constexpr std::size_t kMaximumPairs = std::size_t{1} << 30; // 4 GiB of indices
 
 // Floats of the size of the box are off by up to 6e-8 of the diagonal, and PCL squares distances in float.
 constexpr double kRelativeMargin = 1e-4;
@@ -44,7 +43,7 @@ joinBlocks(const std::vector<RowBlock>& blocks, std::size_t queries)
 } // namespace
 
 NeighborLists
-collectRows(std::size_t queries, std::size_t threads, const RowSearch& search)
+collectRows(std::size_t queries, std::size_t threads, const RowSearch& search, std::size_t maximum_pairs)
 {
   std::vector<RowBlock> blocks((queries + kQueriesPerBlock - 1) / kQueriesPerBlock);
   std::atomic<std::size_t> pairs{0};
@@ -53,8 +52,8 @@ collectRows(std::size_t queries, std::size_t threads, const RowSearch& search)
     std::vector<std::uint32_t> row;
     for (std::size_t query = begin; query < end; ++query) {
       search(query, row);
-      if ((pairs += row.size()) > kMaximumPairs)
-        throw ExcessiveWork("the neighbour search finds more than " + std::to_string(kMaximumPairs) +
+      if ((pairs += row.size()) > maximum_pairs)
+        throw ExcessiveWork("the neighbour search finds more than " + std::to_string(maximum_pairs) +
                             " pairs within the radius; reduce the radius or use the built-in search");
       std::sort(row.begin(), row.end());
       block.sizes.push_back(row.size());

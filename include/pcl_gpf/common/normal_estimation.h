@@ -29,7 +29,7 @@ struct NormalEstimationParameters {
  *
  * \param[in] points not null, finite positions
  * \param[in] viewpoint in the frame of the points
- * \throws InvalidParameter
+ * \throws pcl::BadArgumentException
  */
 PCL_GPF_EXPORT pcl::PointCloud<pcl::Normal>
 estimateNormalsOfFinitePoints(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& points,
@@ -42,7 +42,7 @@ estimateNormalsOfFinitePoints(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& po
  * a NaN normal. is_dense is set by fact. Normals point towards the cloud's sensor origin.
  * Cost: one k-d tree and one query a point.
  * \return number of points that have no normal
- * \throws InvalidParameter if a parameter is out of its range
+ * \throws pcl::BadArgumentException if a parameter is out of its range
  * \note A viewpoint orients one scan; a cloud merged from several, or a closed surface seen from inside its box, gets signs that
  * are not consistent. BilateralNormalFilter (by default) and GPF do not need consistent signs.
  */

@@ -20,9 +20,12 @@ namespace pcl_gpf {
 /** \brief Writes the neighbours of one query into its argument; called by several threads at once. */
 using RowSearch = std::function<void(std::size_t query, std::vector<std::uint32_t>& row)>;
 
-/** \brief Collects the rows of all queries, each sorted ascending. \throws ExcessiveWork beyond 2^30 pairs (4 GiB) */
+/** \brief Most pairs that collectRows() keeps: 4 GiB of indices. */
+constexpr std::size_t kMaximumPairs = std::size_t{1} << 30;
+
+/** \brief Collects the rows of all queries, each sorted ascending. \throws ExcessiveWork beyond `maximum_pairs` */
 PCL_GPF_EXPORT NeighborLists
-collectRows(std::size_t queries, std::size_t threads, const RowSearch& search);
+collectRows(std::size_t queries, std::size_t threads, const RowSearch& search, std::size_t maximum_pairs = kMaximumPairs);
 
 /** \brief Radius to ask a pcl::search::Search for, cloud units: a hair more than wanted, because FLANN leaves points at exactly the
  * radius out and works in float; the core tests the distance again. */
