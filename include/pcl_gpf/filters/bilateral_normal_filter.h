@@ -28,7 +28,7 @@ struct BilateralNormalFilterStatistics : FilterStatistics {
  * By default neighbours of opposite sign are flipped before averaging, so that the normals need no consistent orientation; each
  * keeps its own sign.
  * \note Normals that are off by more than the angle are not averaged: raise setAngle() for strong noise.
- * \note Edges sharper than 90 degrees count as their supplement with the sign-invariant form.
+ * \note In the sign-invariant form two directions are never more than 90 degrees apart: 100 count as 80.
  *
  * Cost: O(iterations * N * points in the radius) time, O(N) memory. Everything of OperatorFilter holds. Setters only store; filter()
  * checks. What each parameter means, its range and default: BilateralNormalsParameters.
@@ -60,7 +60,7 @@ public:
   void setNeighbors(unsigned neighbors) { parameters_.neighbors = neighbors; }
   unsigned getNeighbors() const { return parameters_.neighbors; }
 
-  /** \brief sigma_n in degrees, 0 < sigma_n <= 90. Default 15. */
+  /** \brief sigma_n in degrees, 0 < sigma_n <= 90. Default 30. */
   void setAngle(double degrees) { parameters_.angle = degrees; }
   double getAngle() const { return parameters_.angle; }
 

@@ -66,7 +66,7 @@ GPF<PointT>::runOperator(const OperatorInput& input, MutableVectorsView displace
 {
   const GPFParameters parameters = effectiveParameters(input.cloud);
   SoaBuffer remainders;
-  if (parameters.posterior_normalization || parameters.variance_update != VarianceUpdate::Fixed)
+  if (runsInDouble(parameters))
     remainders = packRemainders(*this->input_, input.cloud);
   GPFInput data;
   data.points = input.cloud.points.view();
