@@ -39,12 +39,6 @@ estimateMissingNormals(const PlaneNormalsParameters& parameters, Packed& packed)
   }
 }
 
-bool
-isPaperRecursion(const GPFParameters& gpf)
-{
-  return gpf.posterior_normalization || gpf.variance_update != VarianceUpdate::Fixed;
-}
-
 /** Lengths of the parameters from cloud units into the normalised frame. */
 DenoiseParameters
 toLocal(DenoiseParameters p, const LocalFrame& frame)
@@ -101,13 +95,13 @@ denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageP
 {
   DenoiseParameters parameters = wanted;
   DenoiseResult result;
-  const bool paper = isPaperRecursion(parameters.gpf);
-  Packed packed = prepare(input, parameters, paper, progress, result);
+  const bool exact = runsInDouble(parameters.gpf);
+  Packed packed = prepare(input, parameters, exact, progress, result);
   Stopwatch watch;
   const std::vector<std::uint32_t> samples = drawSamples(parameters.gpf, packed);
   GPFInput gpf_input;
   gpf_input.index = packed.index.get();
-  if (paper)
+  if (exact)
     gpf_input.remainders = packed.remainders.view();
   gpf_input.normals = packed.normals.view();
   gpf_input.samples = samples.empty() ? nullptr : samples.data();

@@ -8,18 +8,6 @@
 
 namespace pcl_gpf {
 
-namespace {
-
-/** The recursion that moves sigma^2 or normalises posteriors amplifies rounding (weights differ by many powers of ten, a pair at the
- * edge of the ball is in or out), so it runs in double; fixed smooth weights do not need that. */
-bool
-needsDouble(const GPFParameters& p)
-{
-  return p.posterior_normalization || p.variance_update != VarianceUpdate::Fixed;
-}
-
-} // namespace
-
 GPFState::GPFState(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
 GPFState::GPFState(GPFState&&) noexcept = default;
 GPFState&
@@ -65,7 +53,7 @@ gpfInit(const GPFParameters& parameters, const GPFInput& input)
   for (std::size_t i = 0; input.samples && i < input.sample_count; ++i)
     if (input.samples[i] >= (input.index ? input.index->size() : input.points.size))
       throw InvalidParameter("a sample index is not below the number of points");
-  if (needsDouble(parameters))
+  if (runsInDouble(parameters))
     return GPFState(std::make_unique<GPFSolver<double>>(parameters, input));
   return GPFState(std::make_unique<GPFSolver<float>>(parameters, input));
 }

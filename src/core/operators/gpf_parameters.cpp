@@ -25,6 +25,12 @@ GPFParameters::paper()
   return p;
 }
 
+bool
+runsInDouble(const GPFParameters& p)
+{
+  return p.posterior_normalization || p.variance_update != VarianceUpdate::Fixed;
+}
+
 void
 validate(const GPFParameters& p)
 {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <type_traits>
 
 namespace pcl_gpf {
@@ -98,6 +97,7 @@ struct GPFSolver<Real>::RepulsionSums {
 template <typename Real>
 GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
 : search_(input.search)
+, cloud_(input, p.number_of_threads)
 , threads_(resolveThreads(p.number_of_threads))
 , data_radius_(0.5 * p.support_radius)
 , data_neighborhoods_(0.5 * p.support_radius, 1.0)
@@ -106,68 +106,8 @@ GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
 , variance_(p.initial_variance > 0.0 ? p.initial_variance : 0.25 * p.support_radius * p.support_radius)
 {
   parameters = p;
-  sortInput(input);
+  isolated_.assign(size(), 0);
   evaluateDensities();
-}
-
-template <typename Real>
-kernels::Vectors<Real>
-GPFSolver<Real>::points() const
-{
-  if constexpr (std::is_same<Real, float>::value) {
-    const PointsView sorted = index_->sorted();
-    return {sorted.x, sorted.y, sorted.z};
-  } else
-    return exact_points_.vectors();
-}
-
-template <typename Real>
-void
-GPFSolver<Real>::sortInput(const GPFInput& input)
-{
-  index_ = input.index;
-  std::vector<std::uint32_t> order; // of the arrays in `input`
-  if (index_) {
-    order.resize(index_->size());
-    std::iota(order.begin(), order.end(), std::uint32_t{0});
-  } else {
-    own_index_ = std::make_unique<PointIndex>(input.points, parameters.number_of_threads);
-    index_ = own_index_.get();
-    order = index_->order();
-  }
-  const PointsView positions = input.index ? index_->sorted() : input.points;
-  if constexpr (!std::is_same<Real, float>::value)
-    exact_points_ = gather<Real>(positions, input.remainders, order, Real(kFarAway));
-  point_normals_ = gather<Real>(input.normals, {}, order, Real(0));
-  if (!input.samples) {
-    samples_ = gather<Real>(positions, input.remainders, order, Real(kFarAway));
-    sample_order_ = std::move(order);
-  } else
-    sortSamples(input, positions, order);
-  isolated_.assign(sample_order_.size(), 0);
-}
-
-template <typename Real>
-void
-GPFSolver<Real>::sortSamples(const GPFInput& input, PointsView positions, const std::vector<std::uint32_t>& order)
-{
-  std::vector<std::uint32_t> place(order.size()); // of each input point among the sorted ones
-  for (std::size_t i = 0; i < order.size(); ++i)
-    place[order[i]] = static_cast<std::uint32_t>(i);
-  sample_order_.resize(input.sample_count);
-  std::iota(sample_order_.begin(), sample_order_.end(), std::uint32_t{0});
-  std::sort(sample_order_.begin(), sample_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t place_a = place[input.samples[a]], place_b = place[input.samples[b]];
-    return place_a != place_b ? place_a < place_b : a < b;
-  });
-  seeds_.resize(input.sample_count);
-  std::vector<std::uint32_t> seed_points(input.sample_count);
-  for (std::size_t s = 0; s < input.sample_count; ++s) {
-    seed_points[s] = input.samples[sample_order_[s]];
-    seeds_[s] = place[seed_points[s]];
-  }
-  samples_ = gather<Real>(positions, input.remainders, seed_points, Real(kFarAway));
-  sample_normals_ = gather<Real>(input.normals, {}, seed_points, Real(0));
 }
 
 /** rho_n = 1 + sum over n' != n of theta(|v_n - v_n'|), within h / 2; the point itself contributes the 1. */
@@ -179,14 +119,14 @@ GPFSolver<Real>::evaluateDensities()
       parameters.density_weights || parameters.posterior_normalization || parameters.variance_update != VarianceUpdate::Fixed;
   if (!weighted)
     return;
-  point_weight_ = AlignedArray<Real>(pointCount() + kQueryBlock, Real(1));
-  inverse_density_ = AlignedArray<Real>(pointCount() + kQueryBlock, Real(1));
+  point_weight_ = AlignedArray<Real>(cloud_.pointCount() + kQueryBlock, Real(1));
+  inverse_density_ = AlignedArray<Real>(cloud_.pointCount() + kQueryBlock, Real(1));
   if (!parameters.density_weights)
     return;
-  const PointsView sorted = index_->sorted();
-  gaussianSums(points(), pointCount(), points(), neighborhoods(index_->tree(), sorted, sorted, data_radius_), data_radius_, 1.0,
+  const PointsView sorted = cloud_.index().sorted();
+  gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.points(), neighborhoods(cloud_.index().tree(), sorted, sorted, data_radius_), data_radius_, 1.0,
                inverse_density_);
-  for (std::size_t n = 0; n < pointCount(); ++n)
+  for (std::size_t n = 0; n < cloud_.pointCount(); ++n)
     inverse_density_[n] = Real(1) / std::max(Real(1), inverse_density_[n]);
 }
 
@@ -211,11 +151,11 @@ void
 GPFSolver<Real>::evaluatePosteriorDenominators()
 {
   const double omega = parameters.outlier_weight;
-  const double c = std::pow(2.0 * kPi * variance_, 1.5) * omega / (1.0 - omega) * static_cast<double>(samples_.size()) /
-                   static_cast<double>(pointCount());
-  gaussianSums(points(), pointCount(), samples_.vectors(), current(posterior_neighborhoods_, true, false), data_radius_,
+  const double c = std::pow(2.0 * kPi * variance_, 1.5) * omega / (1.0 - omega) * static_cast<double>(cloud_.samples().size()) /
+                   static_cast<double>(cloud_.pointCount());
+  gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.samples().vectors(), current(posterior_neighborhoods_, true, false), data_radius_,
                data_radius_ * data_radius_ / (2.0 * variance_), point_weight_);
-  for (std::size_t n = 0; n < pointCount(); ++n) {
+  for (std::size_t n = 0; n < cloud_.pointCount(); ++n) {
     const Real denominator = point_weight_[n] + static_cast<Real>(c);
     point_weight_[n] = denominator > Real(0) ? Real(1) / denominator : Real(0);
   }
@@ -226,12 +166,12 @@ typename GPFSolver<Real>::DataSums
 GPFSolver<Real>::evaluateDataTerm()
 {
   const bool variance = parameters.variance_update != VarianceUpdate::Fixed;
-  DataSums sums(samples_.size(), variance);
+  DataSums sums(cloud_.samples().size(), variance);
   kernels::Projection<Real> a;
-  a.queries = samples_.vectors();
-  a.query_normals = sampleNormals().vectors();
-  a.data = points();
-  a.data_normals = point_normals_.vectors();
+  a.queries = cloud_.samples().vectors();
+  a.query_normals = cloud_.sampleNormals().vectors();
+  a.data = cloud_.points();
+  a.data_normals = cloud_.pointNormals();
   a.radius.radius_sq = static_cast<Real>(data_radius_ * data_radius_);
   a.falloff = static_cast<Real>(data_radius_ * data_radius_ / (2.0 * variance_));
   a.symmetric = parameters.data_term == DataTerm::Symmetric;
@@ -250,7 +190,7 @@ GPFSolver<Real>::evaluateDataTerm()
   a.scatter_diagonal = sums.diagonal.vectors();
   a.scatter_mixed = sums.mixed.vectors();
   const kernels::Candidates candidates = candidatesOf(current(data_neighborhoods_, false, true));
-  parallelBlocks(blockCount(samples_.size()), kBlocksPerTask, threads_,
+  parallelBlocks(blockCount(cloud_.samples().size()), kBlocksPerTask, threads_,
                  [&](std::size_t begin, std::size_t end) { projectionKernel<Real>()(candidates, a, begin, end); });
   return sums;
 }
@@ -274,13 +214,13 @@ GPFSolver<Real>::evaluateRepulsion()
   const Neighborhoods& near = current(repulsion_neighborhoods_, true, true);
   AlignedArray<Real> sample_density;
   if (parameters.density_weights) {
-    sample_density = AlignedArray<Real>(samples_.size() + kQueryBlock);
-    gaussianSums(samples_.vectors(), size(), samples_.vectors(), near, h, 4.0, sample_density); // w_m; theta(r) = exp(-4 r^2 / h^2)
+    sample_density = AlignedArray<Real>(cloud_.samples().size() + kQueryBlock);
+    gaussianSums(cloud_.samples().vectors(), size(), cloud_.samples().vectors(), near, h, 4.0, sample_density); // w_m; theta(r) = exp(-4 r^2 / h^2)
   }
-  RepulsionSums sums{AlignedArray<Real>(samples_.size() + kQueryBlock), SortedVectors<Real>(samples_.size())};
+  RepulsionSums sums{AlignedArray<Real>(cloud_.samples().size() + kQueryBlock), SortedVectors<Real>(cloud_.samples().size())};
   kernels::Repulsion<Real> a;
-  a.queries = a.data = samples_.vectors();
-  a.data_normals = sampleNormals().vectors();
+  a.queries = a.data = cloud_.samples().vectors();
+  a.data_normals = cloud_.sampleNormals().vectors();
   a.radius.radius_sq = static_cast<Real>(h * h);
   a.falloff = Real(4);
   a.shortest = parameters.own_tangent_repulsion ? static_cast<Real>(kShortestRepulsion * h) : Real(0);
@@ -288,7 +228,7 @@ GPFSolver<Real>::evaluateRepulsion()
   a.push = sums.push.vectors();
   a.weight_sum = sums.weight.data();
   const kernels::Candidates candidates = candidatesOf(near);
-  parallelBlocks(blockCount(samples_.size()), kBlocksPerTask, threads_,
+  parallelBlocks(blockCount(cloud_.samples().size()), kBlocksPerTask, threads_,
                  [&](std::size_t begin, std::size_t end) { repulsionKernel<Real>()(candidates, a, begin, end); });
   return sums;
 }
@@ -302,10 +242,11 @@ GPFSolver<Real>::move(const DataSums& data, const RepulsionSums& repulsion)
     double movement = 0, longest = 0, posterior = 0, residual = 0;
     std::size_t isolated = 0;
   };
-  const std::size_t count = samples_.size();
+  SortedVectors<Real>& samples = cloud_.samples();
+  const std::size_t count = samples.size();
   const double mu = repulsion.weight.empty() ? 0.0 : repulsionWeight();
   const bool variance = !data.posterior.empty();
-  const SortedVectors<Real>& own_normals = sampleNormals();
+  const SortedVectors<Real>& own_normals = cloud_.sampleNormals();
   std::vector<Partial> partials((count + kPointsPerTask - 1) / kPointsPerTask);
   parallelBlocks(count, kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
     Partial& sum = partials[begin / kPointsPerTask];
@@ -337,9 +278,9 @@ GPFSolver<Real>::move(const DataSums& data, const RepulsionSums& repulsion)
       } else
         sum.posterior += data.weight[m];
       sum.isolated += isolated_[m];
-      samples_.x[m] += x;
-      samples_.y[m] += y;
-      samples_.z[m] += z;
+      samples.x[m] += x;
+      samples.y[m] += y;
+      samples.z[m] += z;
       const double length = std::sqrt(static_cast<double>(x) * x + static_cast<double>(y) * y + static_cast<double>(z) * z);
       sum.movement += length;
       sum.longest = std::max(sum.longest, length);
@@ -398,49 +339,13 @@ const Neighborhoods&
 GPFSolver<Real>::current(MovingNeighborhoods& moving, bool data_are_samples, bool queries_are_samples)
 {
   if (moving.stale()) {
-    const PointsView samples = samples_.floatView(float_samples_), sorted = index_->sorted();
+    const PointsView samples = cloud_.samples().floatView(float_samples_), sorted = cloud_.index().sorted();
     if (data_are_samples)
       sample_tree_.fit(samples, threads_);
-    moving.set(neighborhoods(data_are_samples ? sample_tree_ : index_->tree(), data_are_samples ? samples : sorted,
+    moving.set(neighborhoods(data_are_samples ? sample_tree_ : cloud_.index().tree(), data_are_samples ? samples : sorted,
                              queries_are_samples ? samples : sorted, moving.reach()));
   }
   return moving.get();
-}
-
-template <typename Real>
-void
-GPFSolver<Real>::positions(MutableVectorsView out) const
-{
-  for (std::size_t s = 0; s < size(); ++s) {
-    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s]);
-    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s]);
-    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s]);
-  }
-}
-
-template <typename Real>
-void
-GPFSolver<Real>::displacements(MutableVectorsView out) const
-{
-  const kernels::Vectors<Real> from = points();
-  for (std::size_t s = 0; s < size(); ++s) {
-    const std::size_t seed = seedOf(s);
-    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s] - from.x[seed]);
-    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s] - from.y[seed]);
-    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s] - from.z[seed]);
-  }
-}
-
-template <typename Real>
-void
-GPFSolver<Real>::normals(MutableVectorsView out) const
-{
-  const SortedVectors<Real>& own = sampleNormals();
-  for (std::size_t s = 0; s < size(); ++s) {
-    out.x[sample_order_[s]] = static_cast<float>(own.x[s]);
-    out.y[sample_order_[s]] = static_cast<float>(own.y[s]);
-    out.z[sample_order_[s]] = static_cast<float>(own.z[s]);
-  }
 }
 
 template <typename Real>
@@ -449,7 +354,7 @@ GPFSolver<Real>::isolated() const
 {
   std::vector<std::uint8_t> out(size());
   for (std::size_t s = 0; s < size(); ++s)
-    out[sample_order_[s]] = isolated_[s];
+    out[cloud_.rankOf(s)] = isolated_[s];
   return out;
 }
 

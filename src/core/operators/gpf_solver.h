@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "../sorted_points.h"
+#include "gpf_points.h"
 
 #include <pcl_gpf/core/cluster_tree.h>
 #include <pcl_gpf/core/operators/gpf.h>
 
-#include <memory>
 #include <vector>
 
 namespace pcl_gpf {
@@ -70,14 +69,23 @@ public:
   std::size_t
   size() const override
   {
-    return sample_order_.size();
+    return cloud_.sampleCount();
   }
   void
-  positions(MutableVectorsView out) const override;
+  positions(MutableVectorsView out) const override
+  {
+    cloud_.positions(out);
+  }
   void
-  displacements(MutableVectorsView out) const override;
+  displacements(MutableVectorsView out) const override
+  {
+    cloud_.displacements(out);
+  }
   void
-  normals(MutableVectorsView out) const override;
+  normals(MutableVectorsView out) const override
+  {
+    cloud_.normals(out);
+  }
   std::vector<std::uint8_t>
   isolated() const override;
 
@@ -85,10 +93,6 @@ private:
   struct DataSums;
   struct RepulsionSums;
 
-  void
-  sortInput(const GPFInput& input);
-  void
-  sortSamples(const GPFInput& input, PointsView positions, const std::vector<std::uint32_t>& order);
   void
   evaluateDensities();
   void
@@ -108,28 +112,12 @@ private:
   neighborhoods(const ClusterTree& tree, PointsView data, PointsView queries, double reach) const;
   const Neighborhoods&
   current(MovingNeighborhoods& moving, bool data_are_samples, bool queries_are_samples);
-  kernels::Vectors<Real>
-  points() const;
-  std::size_t pointCount() const { return index_->size(); }
-  const SortedVectors<Real>&
-  sampleNormals() const
-  {
-    return sample_normals_.size() > 0 ? sample_normals_ : point_normals_;
-  }
-  /** Index of the sorted input point that seeded sorted sample s. */
-  std::size_t seedOf(std::size_t s) const { return seeds_.empty() ? s : seeds_[s]; }
 
   NeighborSearch search_;
+  GPFPoints<Real> cloud_;
   std::size_t threads_;
   double data_radius_; ///< h / 2
 
-  std::unique_ptr<PointIndex> own_index_; ///< when the caller gave none
-  const PointIndex* index_;
-  SortedVectors<Real> exact_points_; ///< only for Real = double; float reads the index
-  SortedVectors<Real> point_normals_;
-  std::vector<std::uint32_t> sample_order_; ///< rank of the sample, in the caller's order, at each sorted place
-  std::vector<std::uint32_t> seeds_;        ///< empty: sample s was seeded by point s
-  SortedVectors<Real> samples_, sample_normals_;
   ClusterTree sample_tree_;
   std::vector<std::uint8_t> isolated_; ///< in sorted order
 

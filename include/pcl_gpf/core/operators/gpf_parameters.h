@@ -88,6 +88,11 @@ struct GPFParameters {
   paper();
 };
 
+/** \brief Whether the recursion runs in double: when posteriors are normalised or sigma^2 moves. It amplifies rounding then (weights
+ * differ by many powers of ten, a pair at the edge of the ball is in or out); fixed smooth weights are safe in float. */
+PCL_GPF_CORE_EXPORT bool
+runsInDouble(const GPFParameters& parameters);
+
 /** \brief Checks every range. \throws InvalidParameter naming field, value and range */
 PCL_GPF_CORE_EXPORT void
 validate(const GPFParameters& parameters);
