@@ -65,6 +65,7 @@ prepare(const DenoiseInput& input, DenoiseParameters& parameters, bool with_rema
 {
   validate(parameters.gpf);
   validate(parameters.bilateral);
+  validate(parameters.normals);
   Stopwatch watch;
   Packed packed = packPositions(input, with_remainders, parameters.number_of_threads);
   packNormals(input, packed);

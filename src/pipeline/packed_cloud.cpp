@@ -135,8 +135,11 @@ unpack(const DenoiseInput& input, const Packed& packed, const GPFState& state, c
   state.displacements(vectors.view());
   const auto move = [&](const double* start, const AlignedArray<float>& moves, std::vector<double>& to) {
     to.resize(count);
-    for (std::size_t k = 0; k < count; ++k)
-      to[k] = start[result.sample_indices[k]] + packed.frame.lengthToWorld(static_cast<double>(moves[from[k]]));
+    for (std::size_t k = 0; k < count; ++k) {
+      to[k] = start[result.sample_indices[k]];
+      if (moves[from[k]] != 0.0f) // adding 0 would turn -0 into 0
+        to[k] += packed.frame.lengthToWorld(static_cast<double>(moves[from[k]]));
+    }
   };
   move(input.x, vectors.x, result.x);
   move(input.y, vectors.y, result.y);

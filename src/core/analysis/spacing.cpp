@@ -3,7 +3,9 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace pcl_gpf {
 
@@ -12,6 +14,24 @@ namespace {
 constexpr std::size_t kMostProbes = 4096;
 constexpr std::size_t kNeighbor = 16;
 constexpr double kPi = 3.14159265358979323846;
+
+/** Every different position once. */
+SoaBuffer
+distinctPoints(PointsView points)
+{
+  std::vector<std::array<float, 3>> positions(points.size);
+  for (std::size_t i = 0; i < points.size; ++i)
+    positions[i] = {points.x[i], points.y[i], points.z[i]};
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  SoaBuffer distinct(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    distinct.x[i] = positions[i][0];
+    distinct.y[i] = positions[i][1];
+    distinct.z[i] = positions[i][2];
+  }
+  return distinct;
+}
 
 } // namespace
 
@@ -40,8 +60,10 @@ estimateSpacing(const PointIndex& points, unsigned number_of_threads)
   });
   // Duplicates have no spacing; the median is taken over points that have neighbours elsewhere.
   distances_sq.erase(std::remove(distances_sq.begin(), distances_sq.end(), 0.0f), distances_sq.end());
-  if (distances_sq.empty())
-    return 0.0;
+  if (distances_sq.empty()) { // a few piles of coincident points
+    const SoaBuffer distinct = distinctPoints(view);
+    return distinct.size() < points.size() ? estimateSpacing(distinct.view(), number_of_threads) : 0.0;
+  }
   const auto middle = distances_sq.begin() + static_cast<std::ptrdiff_t>(distances_sq.size() / 2);
   std::nth_element(distances_sq.begin(), middle, distances_sq.end());
   return std::sqrt(*middle * kPi / static_cast<double>(neighbor));

@@ -19,8 +19,9 @@ namespace {
 constexpr std::size_t kFewestNeighbors = 6;
 constexpr std::size_t kNearestInstead = 12;
 constexpr std::size_t kPointsPerTask = 1024;
-/** Second eigenvalue below this share of the largest: the points lie on a line or coincide, no plane is better than another. */
-constexpr double kLineRatio = 1e-10;
+/** Second eigenvalue below this share of the largest: the points lie on a line or coincide, no plane is better than another. Moments
+ * summed in float and the closed-form eigenvalues resolve about 1e-7. */
+constexpr double kLineRatio = 1e-6;
 
 struct MomentSums {
   explicit MomentSums(std::size_t size) : count(size + kQueryBlock), mean(size), diagonal(size), mixed(size) {}
@@ -87,6 +88,12 @@ fitMoments(const MomentSums& m, std::size_t i)
 }
 
 } // namespace
+
+void
+validate(const PlaneNormalsParameters& parameters)
+{
+  checkRange("normal radius", parameters.radius, parameters.radius >= 0.0, ">= 0, 0 = estimated");
+}
 
 std::size_t
 estimatePlaneNormals(const PlaneNormalsParameters& parameters, PointsView points, MutableVectorsView normals,

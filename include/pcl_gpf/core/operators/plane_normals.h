@@ -18,6 +18,10 @@ struct PlaneNormalsParameters {
   unsigned number_of_threads = 0;
 };
 
+/** \brief Checks every range. \throws InvalidParameter */
+PCL_GPF_CORE_EXPORT void
+validate(const PlaneNormalsParameters& parameters);
+
 /** \brief Least-squares plane normal of every point: eigenvector of the least eigenvalue of its neighbourhood's covariance.
  *
  * Signs: the component of largest magnitude is positive, so they are repeatable but not consistent over a surface.
