@@ -8,14 +8,22 @@
 
 namespace pcl_gpf {
 
+namespace {
+
+constexpr std::size_t kPointsPerTask = 65536;
+
+} // namespace
+
 PointIndex::PointIndex(PointsView points, unsigned number_of_threads)
 {
   const std::size_t threads = resolveThreads(number_of_threads);
   order_ = hilbertOrder(points, threads);
   positions_ = SoaBuffer(size() + kQueryBlock);
-  const auto one = [this](const float* from, AlignedArray<float>& to) {
-    for (std::size_t k = 0; k < size(); ++k)
-      to[k] = from[order_[k]];
+  const auto one = [&](const float* from, AlignedArray<float>& to) {
+    parallelBlocks(size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        to[k] = from[order_[k]];
+    });
     std::fill(to.begin() + size(), to.end(), kFarAway);
   };
   one(points.x, positions_.x);

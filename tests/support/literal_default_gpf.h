@@ -59,9 +59,9 @@ private:
       const double floor = p.normal_weight_floor;
       const double weight =
           std::exp(-r * r / (2 * variance)) * (floor + (1 - floor) * bell(turn / oneMinusCosine(p.normal_angle)));
-      const double share = p.data_term == DataTerm::Symmetric ? bell(turn / oneMinusCosine(30)) : 0;
+      const double share = p.data_term == DataTerm::Symmetric ? 0.5 * bell(turn / oneMinusCosine(30)) : 0;
       for (std::size_t i = 0; i < 3; ++i)
-        sum[i] += weight * (dot(d, b[k]) * b[k][i] + share * dot(d, n) * n[i]) / (1 + share);
+        sum[i] += weight * ((1 - share) * dot(d, b[k]) * b[k][i] + share * dot(d, n) * n[i]);
       weights += weight;
     }
     if (weights == 0)

@@ -35,11 +35,13 @@ gaussianSums(const Candidates& candidates, const GaussianSums<Real>& a, std::siz
 template <bool kSymmetric, bool kNormalWeights>
 struct ProjectionLoops {
   template <class D>
-  using Plain = ProjectionSum<D, kSymmetric, kNormalWeights, false, false>;
+  using Plain = ProjectionSum<D, kSymmetric, kNormalWeights, false, false, false>;
   template <class D>
-  using Weighted = ProjectionSum<D, kSymmetric, kNormalWeights, true, false>;
+  using Gentle = ProjectionSum<D, kSymmetric, kNormalWeights, false, false, true>;
   template <class D>
-  using WithVariance = ProjectionSum<D, kSymmetric, kNormalWeights, true, true>;
+  using Weighted = ProjectionSum<D, kSymmetric, kNormalWeights, true, false, false>;
+  template <class D>
+  using WithVariance = ProjectionSum<D, kSymmetric, kNormalWeights, true, true, false>;
 
   template <typename Real>
   static void
@@ -49,6 +51,8 @@ struct ProjectionLoops {
       streamPairs<WithVariance, Real>(candidates, a, begin, end);
     else if (a.data_weight)
       streamPairs<Weighted, Real>(candidates, a, begin, end);
+    else if (sizeof(Real) == sizeof(float) && a.falloff <= Real(1))
+      streamPairs<Gentle, Real>(candidates, a, begin, end);
     else
       streamPairs<Plain, Real>(candidates, a, begin, end);
   }

@@ -262,6 +262,18 @@ expNonPositive(D d, hn::Vec<D> x)
   return hn::IfThenZeroElse(underflow, scaled);
 }
 
+/** exp(x) for -1 <= x <= 0, relative error below 1e-6: a polynomial alone, half the work of the whole range. */
+template <class D>
+HWY_INLINE hn::Vec<D>
+expGentle(D d, hn::Vec<D> x)
+{
+  constexpr double kCoefficients[] = {0.9999993271, 0.9999575166, 0.4995430672, 0.1648039266, 0.03810771922, 0.005009476548};
+  auto p = hn::Set(d, static_cast<hn::TFromD<D>>(kCoefficients[5]));
+  for (int k = 4; k >= 0; --k)
+    p = mulAdd(p, x, hn::Set(d, static_cast<hn::TFromD<D>>(kCoefficients[k])));
+  return p;
+}
+
 /** exp(-u^2) in shape: (1 - u^2 / 4)^4 for u < 2, else 0; 1 at 0, 0.32 at 1 (against 0.37), and four multiplications. */
 template <class D>
 HWY_INLINE hn::Vec<D>

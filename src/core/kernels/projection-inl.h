@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 /** Data term of eq. 10. The residual of eq. 11 after the move delta is a quadratic form in it,
  * sum p ((d - delta).b)^2 = sum p (d.b)^2 - 2 delta.sum p (d.b) b + delta^T (sum p b b^T) delta, so one visit serves both. */
-template <class D, bool kSymmetric, bool kNormalWeights, bool kWeighted, bool kVariance>
+template <class D, bool kSymmetric, bool kNormalWeights, bool kWeighted, bool kVariance, bool kGentle>
 struct ProjectionSum {
   using Real = hn::TFromD<D>;
   using V = hn::Vec<D>;
@@ -58,7 +58,8 @@ struct ProjectionSum {
       return;
     const Lanes3<D> normal = loadDatum(d, a.data_normals, datum);
     const V height = dot<D>(offset, normal);
-    V weight = hn::IfThenElseZero(inside, expNonPositive(d, hn::Mul(distance_sq, scale)));
+    const V exponent = hn::Mul(distance_sq, scale);
+    V weight = hn::IfThenElseZero(inside, kGentle ? expGentle(d, exponent) : expNonPositive(d, exponent));
     if (kWeighted)
       weight = hn::Mul(weight, datum(d, a.data_weight));
     if (kVariance)
@@ -84,10 +85,11 @@ struct ProjectionSum {
     }
     weight_sum = hn::Add(weight_sum, weight);
     if (kSymmetric) {
-      // ((d.b_n) b_n + s (d.b_x) b_x) / (1 + s): the two errors cancel on a curved surface; s falls to 0 across an edge.
-      const V share = bell(d, hn::Mul(deviation, hn::Set(d, a.symmetry_falloff)));
-      weight = hn::Div(weight, hn::Add(one, share));
-      own_pull = mulAdd(hn::Mul(weight, share), dot<D>(offset, query_normal), own_pull);
+      // (1 - s) (d.b_n) b_n + s (d.b_x) b_x: where s is one half the two errors cancel on a curved surface; s is 0 across an edge.
+      const V share = hn::Mul(hn::Set(d, Real(0.5)), bell(d, hn::Mul(deviation, hn::Set(d, a.symmetry_falloff))));
+      const V own = hn::Mul(weight, share);
+      own_pull = mulAdd(own, dot<D>(offset, query_normal), own_pull);
+      weight = hn::Sub(weight, own);
     }
     addScaled<D>(pull, hn::Mul(weight, height), normal);
   }

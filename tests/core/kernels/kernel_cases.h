@@ -155,11 +155,11 @@ struct ProjectionCase : KernelCase<Real> {
     const double deviation = 1 - std::abs(p.cosine());
     const double by_normal = normal_weights ? normal_floor + (1 - normal_floor) * bell(deviation * normal_falloff) : 1.0;
     const double weight = posterior * (weighted ? p.density : 1.0) * by_normal;
-    const double share = symmetric ? bell(deviation * symmetry_falloff) : 0.0;
+    const double share = symmetric ? 0.5 * bell(deviation * symmetry_falloff) : 0.0;
     std::vector<Term> sums = {{weight, weight}};
     for (std::size_t i = 0; i < 3; ++i) {
       const double own = share * Pair::dot(p.d, p.query_normal) * p.query_normal[i];
-      sums.push_back({weight * (p.height() * p.normal[i] + own) / (1 + share), weight * reach});
+      sums.push_back({weight * ((1 - share) * p.height() * p.normal[i] + own), weight * reach});
     }
     if (!variance)
       return sums;
