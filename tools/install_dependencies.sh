@@ -7,7 +7,7 @@
 set -eu
 
 packages="g++ cmake ninja-build pkg-config ccache libpcl-dev libeigen3-dev libflann-dev
-libboost-program-options-dev libtbb-dev libhwy-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev"
+libboost-program-options-dev libpng-dev libtbb-dev libhwy-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev"
 
 list_only=no
 for argument in "$@"; do
@@ -27,7 +27,7 @@ if ! command -v apt-get >/dev/null 2>&1; then
   cat >&2 <<'TEXT'
 This is not Debian or Ubuntu. Please install with the package manager of this system:
   a C++17 compiler (g++ >= 12 or clang >= 14), CMake >= 3.25, Ninja, pkg-config,
-  PCL >= 1.13, Eigen >= 3.3, FLANN, Boost.Program_options, oneTBB >= 2021,
+  PCL >= 1.13, Eigen >= 3.3, FLANN, Boost.Program_options, libpng >= 1.6, oneTBB >= 2021,
   Google Highway >= 1.0, nlohmann-json >= 3.11, GoogleTest >= 1.12, Google Benchmark >= 1.7
 and then run cmake --preset release.
 TEXT

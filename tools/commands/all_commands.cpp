@@ -13,15 +13,9 @@ allCommands()
     list.push_back(filterCommand());
     list.push_back(normalsCommand());
     list.push_back(convertCommand());
-#ifdef PCL_GPF_TOOL_HAS_COMPARE
     list.push_back(compareCommand());
-#endif
-#ifdef PCL_GPF_TOOL_HAS_NOISE
     list.push_back(noiseCommand());
-#endif
-#ifdef PCL_GPF_TOOL_HAS_RENDER
     list.push_back(renderCommand());
-#endif
     for (Command& command : list)
       command.options = command.options + std::vector<OptionSpec>{quietOption(), helpOption()};
     return list;
