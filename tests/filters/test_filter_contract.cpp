@@ -352,6 +352,21 @@ TYPED_TEST(FilterContract, TooFewAndIdenticalPointsAreCopiedWithAWarning)
   EXPECT_TRUE(sameBits(output, *identical));
 }
 
+TYPED_TEST(FilterContract, TwoPilesOfPointsStayWhereTheyAre)
+{
+  USING_FIXTURE;
+  const CloudPtr cloud(new Cloud);
+  cloud->resize(40, (*toCloud<PointT>(cube(1)))[0]);
+  for (std::size_t i = 0; i < cloud->size(); i += 2)
+    (*cloud)[i].x += 1;
+  EXPECT_TRUE(sameBits(this->run(cloud), *cloud));
+  TypeParam plain; // with every parameter estimated
+  plain.setInputCloud(cloud);
+  Cloud output;
+  plain.filter(output);
+  EXPECT_TRUE(sameBits(output, *cloud));
+}
+
 TYPED_TEST(FilterContract, CollinearPointsStayFiniteAndOnTheirLine)
 {
   USING_FIXTURE;

@@ -235,7 +235,7 @@ TEST(GPFLaws, ScaleCommutes)
   const Shape shape = cube(2000, 0.01);
   const Cloud expected = runDefault(toCloud<PointT>(shape));
   const Cloud estimated = runDefault(toCloud<PointT>(shape), 0);
-  for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+  for (const double scale : {1e-30, 1e-6, 1e-3, 1e3, 1e6, 1e30}) {
     const Cloud output = runDefault(toCloud<PointT>(shape, scale), kRadius * scale);
     const Cloud output_estimated = runDefault(toCloud<PointT>(shape, scale), 0);
     double largest = 0, largest_estimated = 0;
