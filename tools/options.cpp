@@ -88,6 +88,17 @@ tokenize(const std::vector<OptionSpec>& table, const std::vector<std::string>& w
   }
 }
 
+/** "--output --overwrite": the second word is no file name, whatever Boost says. */
+void
+refuseOptionAsValue(const std::vector<OptionSpec>& table, const po::option& token)
+{
+  if (token.original_tokens.size() < 2 || token.value.empty())
+    return;
+  for (const OptionSpec& spec : table)
+    if (token.value[0] == "--" + spec.name || (spec.letter && token.value[0] == std::string("-") + spec.letter))
+      throw UsageError("option '--" + token.string_key + "' needs a value");
+}
+
 } // namespace
 
 Options
@@ -106,6 +117,7 @@ Options::parse(const std::vector<OptionSpec>& table, const std::vector<std::stri
       options.files_.push_back(token.value.at(0));
       continue;
     }
+    refuseOptionAsValue(table, token);
     const OptionSpec& spec = options.spec(token.string_key);
     std::string value = token.value.empty() ? std::string() : token.value[0];
     // "--json FILE": the word behind belongs to it when it would be a file too many.
@@ -127,7 +139,7 @@ Options::parse(const std::vector<OptionSpec>& table, const std::vector<std::stri
 bool
 Options::given(const std::string& name) const
 {
-  return values_.count(spec(name).name) > 0;
+  return values_.count(name) > 0;
 }
 
 const std::string&

@@ -53,7 +53,7 @@ struct Share {
   std::uint64_t count = 0; ///< when > 0
 };
 
-/** \brief The checked command line of one command. Getters throw std::logic_error for a name that is not in the table. */
+/** \brief The checked command line of one command. Getters of values throw std::logic_error for a name that is not in the table. */
 class Options {
 public:
   /** \brief Checks words against the table.
@@ -62,7 +62,7 @@ public:
   static Options
   parse(const std::vector<OptionSpec>& table, const std::vector<std::string>& words, std::size_t max_files);
 
-  /** \brief Whether the user wrote it (flags: whether it is set). */
+  /** \brief Whether the user wrote it (flags: whether it is set); never for an option that the command does not have. */
   bool
   given(const std::string& name) const;
 

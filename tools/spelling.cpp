@@ -37,17 +37,18 @@ nearestSpelling(const std::string& word, const std::vector<std::string>& candida
     return "";
   std::string nearest;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  std::vector<std::string> longer;
+  std::string shortest;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = editDistance(word, candidate);
     if (distance < least) {
       least = distance;
       nearest = candidate;
     }
-    if (word.size() > 1 && candidate.compare(0, word.size(), word) == 0)
-      longer.push_back(candidate);
+    const bool begins = word.size() > 1 && candidate.compare(0, word.size(), word) == 0;
+    if (begins && (shortest.empty() || candidate.size() < shortest.size()))
+      shortest = candidate;
   }
-  return nearest.empty() && longer.size() == 1 ? longer.front() : nearest;
+  return nearest.empty() ? shortest : nearest;
 }
 
 } // namespace pcl_gpf

@@ -8,14 +8,8 @@ const std::vector<Command>&
 allCommands()
 {
   static const std::vector<Command> commands = [] {
-    std::vector<Command> list;
-    list.push_back(infoCommand());
-    list.push_back(filterCommand());
-    list.push_back(normalsCommand());
-    list.push_back(convertCommand());
-    list.push_back(compareCommand());
-    list.push_back(noiseCommand());
-    list.push_back(renderCommand());
+    std::vector<Command> list{infoCommand(),    filterCommand(), normalsCommand(), convertCommand(),
+                              compareCommand(), noiseCommand(),  renderCommand()};
     for (Command& command : list)
       command.options = command.options + std::vector<OptionSpec>{quietOption(), helpOption()};
     return list;
