@@ -61,7 +61,8 @@ Target findTarget(const std::string& path) {
 
 void checkTarget(const Target& target, const std::string& path, bool overwrite) {
   if (target.exists && S_ISDIR(target.status.st_mode)) refuse(path, "a file to write", "a folder");
-  if (target.exists && !S_ISREG(target.status.st_mode)) refuse(path, "a regular file to write", "a device, pipe or socket");
+  if (target.exists && !S_ISREG(target.status.st_mode))
+    refuse(path, "a regular file to write", "a device, pipe or socket");
   if (target.exists && !overwrite) refuse(path, "no file of that name (or the permission to overwrite it)", "one");
   if (target.exists && ::access(target.path.c_str(), W_OK) != 0)
     refuse(path, "the right to write the file", std::strerror(errno));
@@ -74,7 +75,8 @@ std::string randomName() {
   std::random_device device;
   std::string name = ".pcl_gpf-";
   for (int part = 0; part < 4; ++part)
-    for (unsigned bits = device(), digit = 0; digit < 8; ++digit, bits >>= 4) name += kDigits[bits & 15];
+    for (unsigned bits = device(), digit = 0; digit < 8; ++digit, bits >>= 4)
+      name += kDigits[bits & 15];
   return name + ".tmp";
 }
 
@@ -113,13 +115,15 @@ int syncFolder(const std::string& folder) {
   return result;
 }
 
-}  // namespace
+} // namespace
 
 void checkWritable(const std::string& path, bool overwrite) {
   if (path != "-") checkTarget(findTarget(path), path, overwrite);
 }
 
-AtomicFile::AtomicFile(const std::string& path, bool overwrite) : path_(path), overwrite_(overwrite) {
+AtomicFile::AtomicFile(const std::string& path, bool overwrite)
+    : path_(path)
+    , overwrite_(overwrite) {
   const Target target = findTarget(path);
   checkTarget(target, path, overwrite);
   target_ = target.path;
@@ -162,7 +166,9 @@ void AtomicFile::discard() noexcept {
   cleanup_slot_ = -1;
 }
 
-AtomicFile::~AtomicFile() { discard(); }
+AtomicFile::~AtomicFile() {
+  discard();
+}
 
 void AtomicFile::fail(const std::string& step, int error) const {
   refuse(path_, step, error == 0 ? "more" : std::strerror(error));
@@ -191,4 +197,4 @@ void AtomicFile::commit() {
   if (syncFolder(folder_) != 0) fail("to bring its folder to the disk", errno);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

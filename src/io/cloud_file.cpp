@@ -20,20 +20,24 @@ int requireAxis(const CloudFile& cloud, int axis) {
   return field;
 }
 
-}  // namespace
+} // namespace
 
 std::size_t sizeOf(FieldType type) noexcept {
   switch (type) {
-    case FieldType::Int8:
-    case FieldType::UInt8: return 1;
-    case FieldType::Int16:
-    case FieldType::UInt16: return 2;
-    case FieldType::Int32:
-    case FieldType::UInt32:
-    case FieldType::Float32: return 4;
-    case FieldType::Int64:
-    case FieldType::UInt64:
-    case FieldType::Float64: break;
+  case FieldType::Int8:
+  case FieldType::UInt8:
+    return 1;
+  case FieldType::Int16:
+  case FieldType::UInt16:
+    return 2;
+  case FieldType::Int32:
+  case FieldType::UInt32:
+  case FieldType::Float32:
+    return 4;
+  case FieldType::Int64:
+  case FieldType::UInt64:
+  case FieldType::Float64:
+    break;
   }
   return 8;
 }
@@ -45,14 +49,16 @@ const char* nameOf(FieldType type) noexcept {
 }
 
 const char* nameOf(CloudFormat format) noexcept {
-  static constexpr const char* kNames[] = {"PCD ascii",         "PCD binary",     "PCD binary_compressed", "PLY ascii",
-                                           "PLY little endian", "PLY big endian", "XYZ text"};
+  static constexpr const char* kNames[] = {"PCD ascii", "PCD binary",        "PCD binary_compressed",
+                                           "PLY ascii", "PLY little endian", "PLY big endian",
+                                           "XYZ text"};
   return kNames[static_cast<int>(format)];
 }
 
 std::size_t CloudFile::pointStep() const noexcept {
   std::size_t step = 0;
-  for (const CloudField& field : fields) step += sizeOf(field.type) * field.count;
+  for (const CloudField& field : fields)
+    step += sizeOf(field.type) * field.count;
   return step;
 }
 
@@ -98,7 +104,8 @@ std::vector<double> CloudFile::column(int field) const {
   std::vector<double> values(size());
   const std::size_t step = pointStep();
   const unsigned char* from = data.data() + description.offset;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = loadElement(description.type, from + i * step);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = loadElement(description.type, from + i * step);
   return values;
 }
 
@@ -107,7 +114,8 @@ void CloudFile::setColumn(int field, const std::vector<double>& values) {
   if (values.size() != size()) throw std::invalid_argument("a column needs one value for every point");
   const std::size_t step = pointStep();
   unsigned char* to = data.data() + description.offset;
-  for (std::size_t i = 0; i < values.size(); ++i) storeElement(description.type, values[i], to + i * step);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    storeElement(description.type, values[i], to + i * step);
 }
 
 void CloudFile::coordinates(double* x, double* y, double* z) const {
@@ -116,7 +124,8 @@ void CloudFile::coordinates(double* x, double* y, double* z) const {
   for (int axis = 0; axis < 3; ++axis) {
     const CloudField& description = fields[static_cast<std::size_t>(requireAxis(*this, axis))];
     const unsigned char* from = data.data() + description.offset;
-    for (std::size_t i = 0; i < size(); ++i) targets[axis][i] = loadElement(description.type, from + i * step);
+    for (std::size_t i = 0; i < size(); ++i)
+      targets[axis][i] = loadElement(description.type, from + i * step);
   }
 }
 
@@ -144,7 +153,8 @@ bool CloudFile::hasNormals() const noexcept {
 std::size_t CloudFile::finiteCount() const {
   const std::size_t step = pointStep();
   const CloudField* axes[3];
-  for (int axis = 0; axis < 3; ++axis) axes[axis] = &fields[static_cast<std::size_t>(requireAxis(*this, axis))];
+  for (int axis = 0; axis < 3; ++axis)
+    axes[axis] = &fields[static_cast<std::size_t>(requireAxis(*this, axis))];
   std::size_t finite = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     const unsigned char* row = data.data() + i * step;
@@ -174,4 +184,4 @@ void CloudFile::copyRow(std::size_t from, CloudFile& target, std::size_t to) con
   std::memcpy(target.data.data() + to * step, data.data() + from * step, step);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -10,4 +10,4 @@ enum class Content { Pcd, Ply, Other };
 /** \brief What the first bytes say; the name is not looked at. */
 Content detectContent(const Source& source);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -18,16 +18,26 @@ namespace {
 template <typename Function>
 auto withType(FieldType type, Function function) {
   switch (type) {
-    case FieldType::Int8: return function(std::int8_t{});
-    case FieldType::UInt8: return function(std::uint8_t{});
-    case FieldType::Int16: return function(std::int16_t{});
-    case FieldType::UInt16: return function(std::uint16_t{});
-    case FieldType::Int32: return function(std::int32_t{});
-    case FieldType::UInt32: return function(std::uint32_t{});
-    case FieldType::Int64: return function(std::int64_t{});
-    case FieldType::UInt64: return function(std::uint64_t{});
-    case FieldType::Float32: return function(float{});
-    case FieldType::Float64: break;
+  case FieldType::Int8:
+    return function(std::int8_t{});
+  case FieldType::UInt8:
+    return function(std::uint8_t{});
+  case FieldType::Int16:
+    return function(std::int16_t{});
+  case FieldType::UInt16:
+    return function(std::uint16_t{});
+  case FieldType::Int32:
+    return function(std::int32_t{});
+  case FieldType::UInt32:
+    return function(std::uint32_t{});
+  case FieldType::Int64:
+    return function(std::int64_t{});
+  case FieldType::UInt64:
+    return function(std::uint64_t{});
+  case FieldType::Float32:
+    return function(float{});
+  case FieldType::Float64:
+    break;
   }
   return function(double{});
 }
@@ -45,7 +55,8 @@ long decimalMagnitude(std::string_view token) {
   int exponent = 0;
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
   constexpr int kBeyondAnyMantissa = std::numeric_limits<int>::max();
-  if (result.ec == std::errc::result_out_of_range) exponent = digits[0] == '-' ? -kBeyondAnyMantissa : kBeyondAnyMantissa;
+  if (result.ec == std::errc::result_out_of_range)
+    exponent = digits[0] == '-' ? -kBeyondAnyMantissa : kBeyondAnyMantissa;
   return magnitude + exponent;
 }
 
@@ -84,7 +95,7 @@ T narrowed(double value) {
   }
 }
 
-}  // namespace
+} // namespace
 
 double loadElement(FieldType type, const unsigned char* from) {
   return withType(type, [&](auto element) {
@@ -100,7 +111,8 @@ void storeElement(FieldType type, double value, unsigned char* to) {
     } catch (const std::out_of_range&) {
       char text[kMaxElementText];
       const char* end = std::to_chars(text, text + sizeof text, value).ptr;
-      throw std::out_of_range(std::string(static_cast<const char*>(text), end) + " does not fit in a field of type " + nameOf(type));
+      throw std::out_of_range(std::string(static_cast<const char*>(text), end) + " does not fit in a field of type " +
+                              nameOf(type));
     }
     std::memcpy(to, &element, sizeof element);
   });
@@ -114,7 +126,9 @@ bool parseElement(FieldType type, std::string_view token, unsigned char* to) {
   });
 }
 
-bool parseReal(std::string_view token, double& value) { return parseToken(token, value); }
+bool parseReal(std::string_view token, double& value) {
+  return parseToken(token, value);
+}
 
 char* formatElement(FieldType type, const unsigned char* from, char* to) {
   return withType(type, [&](auto element) {
@@ -129,7 +143,8 @@ char* formatElement(FieldType type, const unsigned char* from, char* to) {
 
 void swapElements(unsigned char* bytes, std::size_t size, std::size_t count) {
   if (size == 1) return;
-  for (std::size_t i = 0; i < count; ++i) std::reverse(bytes + i * size, bytes + (i + 1) * size);
+  for (std::size_t i = 0; i < count; ++i)
+    std::reverse(bytes + i * size, bytes + (i + 1) * size);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

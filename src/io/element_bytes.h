@@ -33,4 +33,4 @@ char* formatElement(FieldType type, const unsigned char* from, char* to);
 /** \brief Reverses the bytes of each of \a count elements of \a size bytes. */
 void swapElements(unsigned char* bytes, std::size_t size, std::size_t count);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -12,11 +12,14 @@ std::string message(const std::string& path, const std::string& place, const std
   return text + ": expected " + promised + ", found " + found;
 }
 
-}  // namespace
+} // namespace
 
 IoError::IoError(IoErrorKind kind, const std::string& path, const std::string& place, const std::string& promised,
                  const std::string& found)
-    : std::runtime_error(message(path, place, promised, found)), kind_(kind), path_(path), place_(place) {}
+    : std::runtime_error(message(path, place, promised, found))
+    , kind_(kind)
+    , path_(path)
+    , place_(place) {}
 
 std::string printable(const std::string& text, std::size_t limit) {
   static constexpr char kHexDigits[] = "0123456789abcdef";
@@ -35,4 +38,4 @@ std::string printable(const std::string& text, std::size_t limit) {
   return result;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

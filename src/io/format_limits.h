@@ -12,4 +12,4 @@ constexpr std::size_t kMaxFields = 1000;
 constexpr std::size_t kMaxElements = 10000;
 constexpr std::uint64_t kMaxCount = (std::uint64_t{1} << 31) - 1;
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -21,6 +21,7 @@ void reportTrailingLines(LineReader& lines, CloudFile& cloud);
 void reportTrailingBytes(std::size_t bytes, CloudFile& cloud);
 
 /** \brief Fails unless \a rows rows of at least \a row_bytes bytes fit into the \a left bytes of the body. */
-void requireBytes(const Source& source, std::size_t body, std::uint64_t rows, std::uint64_t row_bytes, std::size_t left);
+void requireBytes(const Source& source, std::size_t body, std::uint64_t rows, std::uint64_t row_bytes,
+                  std::size_t left);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -11,4 +11,4 @@ void writePcd(const CloudFile& cloud, CloudFormat format, const ByteSink& sink);
 void writePly(const CloudFile& cloud, CloudFormat format, const ByteSink& sink);
 void writeXyz(const CloudFile& cloud, const ByteSink& sink);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

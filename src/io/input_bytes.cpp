@@ -27,7 +27,8 @@ constexpr std::size_t kLargestRead = std::size_t{1} << 30;
 /** An open input; standard input stays open. */
 class InputFile {
 public:
-  explicit InputFile(const std::string& path) : path_(path) {
+  explicit InputFile(const std::string& path)
+      : path_(path) {
     if (path == "-") {
       path_ = "standard input";
       return;
@@ -55,8 +56,10 @@ public:
     for (;;) {
       const ssize_t count = ::read(file_, to, std::min(size, kLargestRead));
       if (count >= 0) return static_cast<std::size_t>(count);
-      if (errno == EAGAIN || errno == EWOULDBLOCK) waitForInput();
-      else if (errno != EINTR) refuse(path_, "to read it", std::strerror(errno));
+      if (errno == EAGAIN || errno == EWOULDBLOCK)
+        waitForInput();
+      else if (errno != EINTR)
+        refuse(path_, "to read it", std::strerror(errno));
     }
   }
 
@@ -78,11 +81,11 @@ private:
 void grow(InputBytes& bytes, std::size_t capacity) {
   void* moved = std::realloc(bytes.data.get(), capacity);
   if (!moved) throw std::bad_alloc();
-  (void)bytes.data.release();  // realloc has freed it
+  (void)bytes.data.release(); // realloc has freed it
   bytes.data.reset(static_cast<unsigned char*>(moved));
 }
 
-}  // namespace
+} // namespace
 
 InputBytes readInput(const std::string& path,
                      const std::function<void(const unsigned char*, std::size_t)>& check_start) {
@@ -116,4 +119,4 @@ std::string extensionOf(const std::string& path) {
   return extension;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -18,10 +18,9 @@ struct InputBytes {
   std::size_t size = 0;
 };
 
-/** \brief Reads a regular file, or standard input for "-", in chunks (no memory map: a file that another process shortens
- * would kill this one). Never blocks on a FIFO or a device.
- * \param check_start is given the first chunk (at least 1 MiB, or all) and throws to refuse the file early
- * \throws IoError, std::bad_alloc
+/** \brief Reads a regular file, or standard input for "-", in chunks (no memory map: a file that another process
+ * shortens would kill this one). Never blocks on a FIFO or a device. \param check_start is given the first chunk (at
+ * least 1 MiB, or all) and throws to refuse the file early \throws IoError, std::bad_alloc
  */
 InputBytes readInput(const std::string& path,
                      const std::function<void(const unsigned char* data, std::size_t size)>& check_start);
@@ -29,4 +28,4 @@ InputBytes readInput(const std::string& path,
 /** \brief Lower-case extension with its dot, or empty. */
 std::string extensionOf(const std::string& path);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

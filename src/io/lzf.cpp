@@ -40,7 +40,7 @@ void appendReference(std::size_t length, std::size_t distance, std::vector<unsig
   output.push_back(static_cast<unsigned char>((distance - 1) & 0xff));
 }
 
-}  // namespace
+} // namespace
 
 std::vector<unsigned char> lzfCompress(const unsigned char* input, std::size_t size) {
   std::vector<unsigned char> output;
@@ -60,7 +60,8 @@ std::vector<unsigned char> lzfCompress(const unsigned char* input, std::size_t s
     }
     const std::size_t limit = std::min(kMaxLength, size - i);
     std::size_t length = kMinLength;
-    while (length < limit && input[candidate + length] == input[i + length]) ++length;
+    while (length < limit && input[candidate + length] == input[i + length])
+      ++length;
     appendLiterals(input + literals_begin, input + i, output);
     appendReference(length, i - candidate, output);
     i += length;
@@ -95,11 +96,12 @@ bool lzfDecompress(const unsigned char* input, std::size_t size, unsigned char* 
       std::memcpy(output + out, output + out - distance, length);
     } else {
       // An overlapping copy repeats its own output, byte after byte.
-      for (std::size_t k = 0; k < length; ++k) output[out + k] = output[out + k - distance];
+      for (std::size_t k = 0; k < length; ++k)
+        output[out + k] = output[out + k - distance];
     }
     out += length;
   }
   return out == output_size;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -7,7 +7,9 @@
 namespace pcl_gpf {
 
 /** \brief The most bytes that \a compressed bytes of LZF can hold: three bytes make at most 264. */
-constexpr std::size_t lzfCapacity(std::size_t compressed) { return 88 * compressed + 32; }
+constexpr std::size_t lzfCapacity(std::size_t compressed) {
+  return 88 * compressed + 32;
+}
 
 /** \brief Packs bytes in the LZF format of liblzf, which PCD binary_compressed uses. O(size).
  * Never fails; bytes that cannot shrink grow by 1/32.
@@ -19,4 +21,4 @@ std::vector<unsigned char> lzfCompress(const unsigned char* input, std::size_t s
  */
 bool lzfDecompress(const unsigned char* input, std::size_t size, unsigned char* output, std::size_t output_size);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

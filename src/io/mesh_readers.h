@@ -14,4 +14,4 @@ TriangleMesh readMeshObj(const Source& source);
 /** \brief Adds the triangles of a polygon of at least three corners: all share its first corner. */
 void appendFan(const std::vector<std::uint32_t>& polygon, TriangleMesh& mesh);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -25,7 +25,9 @@ bool isByteChannel(const CloudFile& cloud, std::size_t channel) {
   return description.type == FieldType::UInt8 && description.count == 1;
 }
 
-bool isFree(const CloudFile& cloud, const std::string& name) { return cloud.findField(name) < 0; }
+bool isFree(const CloudFile& cloud, const std::string& name) {
+  return cloud.findField(name) < 0;
+}
 
 /** Number of single-byte channels to pack: 3 or 4, or 0 when there is nothing to pack or no name for it. */
 std::size_t channelsToPack(const CloudFile& cloud) {
@@ -66,7 +68,8 @@ void unpackChannels(const CloudField& field, OutputLayout& layout) {
 /** A field `_` would be padding in PCD. */
 std::string pcdName(const CloudFile& cloud, std::string name) {
   if (name != "_") return name;
-  while (!isFree(cloud, name)) name += '_';
+  while (!isFree(cloud, name))
+    name += '_';
   return name;
 }
 
@@ -76,7 +79,7 @@ std::string plyName(const CloudFile& cloud, const std::string& name) {
   return isFree(cloud, short_name) ? short_name : name;
 }
 
-}  // namespace
+} // namespace
 
 std::size_t OutputLayout::add(const std::string& name, FieldType type, std::uint32_t count) {
   const std::size_t offset = step;
@@ -95,10 +98,12 @@ OutputLayout pcdLayout(const CloudFile& cloud) {
   OutputLayout layout;
   const std::size_t channels = channelsToPack(cloud);
   for (const CloudField& field : cloud.fields) {
-    const auto channel = static_cast<std::size_t>(
-        std::find(kChannels.begin(), kChannels.end(), field.name) - kChannels.begin());
-    if (channel >= channels) copyField(field, pcdName(cloud, field.name), layout);
-    else if (channel == 0) packChannels(cloud, channels, layout);
+    const auto channel =
+        static_cast<std::size_t>(std::find(kChannels.begin(), kChannels.end(), field.name) - kChannels.begin());
+    if (channel >= channels)
+      copyField(field, pcdName(cloud, field.name), layout);
+    else if (channel == 0)
+      packChannels(cloud, channels, layout);
   }
   return layout;
 }
@@ -106,8 +111,10 @@ OutputLayout pcdLayout(const CloudFile& cloud) {
 OutputLayout plyLayout(const CloudFile& cloud) {
   OutputLayout layout;
   for (const CloudField& field : cloud.fields) {
-    if (canUnpack(cloud, field)) unpackChannels(field, layout);
-    else copyField(field, plyName(cloud, field.name), layout);
+    if (canUnpack(cloud, field))
+      unpackChannels(field, layout);
+    else
+      copyField(field, plyName(cloud, field.name), layout);
   }
   return layout;
 }
@@ -121,10 +128,12 @@ OutputLayout xyzLayout(const CloudFile& cloud) {
   }
   for (const CloudField& field : cloud.fields) {
     if (std::find(std::begin(kFirst), std::end(kFirst), field.name) != std::end(kFirst)) continue;
-    if (canUnpack(cloud, field)) unpackChannels(field, layout);
-    else copyField(field, field.name, layout);
+    if (canUnpack(cloud, field))
+      unpackChannels(field, layout);
+    else
+      copyField(field, field.name, layout);
   }
   return layout;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -15,9 +15,9 @@ using ByteSink = std::function<void(const void* bytes, std::size_t size)>;
 
 /** \brief The rows as a format wants them: names, order, packing of colours; types stay. */
 struct OutputLayout {
-  std::vector<CloudField> fields;  ///< offsets in the output's rows
-  std::size_t step = 0;            ///< bytes of an output row
-  RowMap map;                      ///< from rows of the cloud
+  std::vector<CloudField> fields; ///< offsets in the output's rows
+  std::size_t step = 0;           ///< bytes of an output row
+  RowMap map;                     ///< from rows of the cloud
 
   /** \brief Appends a field; returns where its bytes go. */
   std::size_t add(const std::string& name, FieldType type, std::uint32_t count = 1);
@@ -35,4 +35,4 @@ OutputLayout xyzLayout(const CloudFile& cloud);
 /** \brief True for a field that holds a packed colour of PCL: rgb or rgba, 4 bytes. */
 bool isPackedColour(const CloudField& field) noexcept;
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -14,8 +14,8 @@ namespace pcl_gpf {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> kKeywords = {"VERSION", "FIELDS",    "COLUMNS", "SIZE", "TYPE", "COUNT",
-                                                        "WIDTH",   "HEIGHT",    "VIEWPOINT", "POINTS", "DATA"};
+constexpr std::array<std::string_view, 11> kKeywords = {"VERSION", "FIELDS", "COLUMNS",   "SIZE",   "TYPE", "COUNT",
+                                                        "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
 /** The type for a SIZE and a TYPE entry. */
 std::optional<FieldType> typeFor(std::string_view size, std::string_view type) {
@@ -23,11 +23,11 @@ std::optional<FieldType> typeFor(std::string_view size, std::string_view type) {
     std::string_view size, type;
     FieldType result;
   };
-  static constexpr Row kTypes[] = {
-      {"1", "I", FieldType::Int8},   {"1", "U", FieldType::UInt8},  {"2", "I", FieldType::Int16},
-      {"2", "U", FieldType::UInt16}, {"4", "I", FieldType::Int32},  {"4", "U", FieldType::UInt32},
-      {"8", "I", FieldType::Int64},  {"8", "U", FieldType::UInt64}, {"4", "F", FieldType::Float32},
-      {"8", "F", FieldType::Float64}};
+  static constexpr Row kTypes[] = {{"1", "I", FieldType::Int8},    {"1", "U", FieldType::UInt8},
+                                   {"2", "I", FieldType::Int16},   {"2", "U", FieldType::UInt16},
+                                   {"4", "I", FieldType::Int32},   {"4", "U", FieldType::UInt32},
+                                   {"8", "I", FieldType::Int64},   {"8", "U", FieldType::UInt64},
+                                   {"4", "F", FieldType::Float32}, {"8", "F", FieldType::Float64}};
   for (const Row& row : kTypes)
     if (row.size == size && row.type == type) return row.result;
   return std::nullopt;
@@ -36,14 +36,15 @@ std::optional<FieldType> typeFor(std::string_view size, std::string_view type) {
 /** One header in the making: the lines are gathered, then checked against each other. */
 class PcdHeaderParser {
 public:
-  explicit PcdHeaderParser(LineReader& lines) : lines_(lines), first_byte_(lines.position()) {}
+  explicit PcdHeaderParser(LineReader& lines)
+      : lines_(lines)
+      , first_byte_(lines.position()) {}
 
   PcdHeader parse() {
     std::string_view line;
     do {
       if (!lines_.next(line)) lines_.fail("a DATA line at the end of the PCD header", "the end of the file");
-      if (lines_.position() - first_byte_ > kMaxHeaderBytes)
-        lines_.fail("a PCD header of at most 1 MiB", "more");
+      if (lines_.position() - first_byte_ > kMaxHeaderBytes) lines_.fail("a PCD header of at most 1 MiB", "more");
     } while (!takeLine(line));
     buildColumns();
     buildSize();
@@ -78,23 +79,35 @@ private:
   }
 
   void takeEntry(std::string_view keyword, const Tokens& values) {
-    if (keyword == "FIELDS") names_ = values;
-    else if (keyword == "SIZE") sizes_ = values;
-    else if (keyword == "TYPE") types_ = values;
-    else if (keyword == "COUNT") counts_ = values;
-    else if (keyword == "VIEWPOINT") takeViewpoint(values);
-    else if (values.size() != 1) lines_.fail("one value after " + std::string(keyword), std::to_string(values.size()));
-    else if (keyword == "VERSION") takeVersion(values[0]);
-    else if (keyword == "WIDTH") width_ = parseCount(lines_, values[0], "WIDTH");
-    else if (keyword == "HEIGHT") height_ = parseCount(lines_, values[0], "HEIGHT");
-    else if (keyword == "POINTS") points_ = parseCount(lines_, values[0], "POINTS");
-    else takeData(values[0]);
+    if (keyword == "FIELDS")
+      names_ = values;
+    else if (keyword == "SIZE")
+      sizes_ = values;
+    else if (keyword == "TYPE")
+      types_ = values;
+    else if (keyword == "COUNT")
+      counts_ = values;
+    else if (keyword == "VIEWPOINT")
+      takeViewpoint(values);
+    else if (values.size() != 1)
+      lines_.fail("one value after " + std::string(keyword), std::to_string(values.size()));
+    else if (keyword == "VERSION")
+      takeVersion(values[0]);
+    else if (keyword == "WIDTH")
+      width_ = parseCount(lines_, values[0], "WIDTH");
+    else if (keyword == "HEIGHT")
+      height_ = parseCount(lines_, values[0], "HEIGHT");
+    else if (keyword == "POINTS")
+      points_ = parseCount(lines_, values[0], "POINTS");
+    else
+      takeData(values[0]);
   }
 
   void takeVersion(std::string_view version) {
     const bool is_number = version.find_first_not_of("0123456789.") == std::string_view::npos;
     if (!is_number) lines_.fail("a PCD version such as 0.7", quoted(version));
-    if (version != "0.7" && version != ".7" && version != "0.6" && version != ".6" && version != "0.5" && version != ".5")
+    if (version != "0.7" && version != ".7" && version != "0.6" && version != ".6" && version != "0.5" &&
+        version != ".5")
       header_.cloud.warnings.push_back("PCD version " + std::string(version.substr(0, 20)) + " is read as 0.7");
   }
 
@@ -104,10 +117,14 @@ private:
   }
 
   void takeData(std::string_view kind) {
-    if (kind == "ascii") header_.cloud.format = CloudFormat::PcdAscii;
-    else if (kind == "binary") header_.cloud.format = CloudFormat::PcdBinary;
-    else if (kind == "binary_compressed") header_.cloud.format = CloudFormat::PcdCompressed;
-    else lines_.fail("DATA ascii, binary or binary_compressed", quoted(kind));
+    if (kind == "ascii")
+      header_.cloud.format = CloudFormat::PcdAscii;
+    else if (kind == "binary")
+      header_.cloud.format = CloudFormat::PcdBinary;
+    else if (kind == "binary_compressed")
+      header_.cloud.format = CloudFormat::PcdCompressed;
+    else
+      lines_.fail("DATA ascii, binary or binary_compressed", quoted(kind));
   }
 
   void requireSameLength(const char* keyword, const Tokens& values) const {
@@ -167,12 +184,14 @@ private:
   std::optional<std::uint64_t> width_, height_, points_;
 };
 
-}  // namespace
+} // namespace
 
 bool isPcdKeyword(std::string_view token) {
   return std::find(kKeywords.begin(), kKeywords.end(), token) != kKeywords.end();
 }
 
-PcdHeader readPcdHeader(LineReader& lines) { return PcdHeaderParser(lines).parse(); }
+PcdHeader readPcdHeader(LineReader& lines) {
+  return PcdHeaderParser(lines).parse();
+}
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

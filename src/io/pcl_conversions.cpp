@@ -55,12 +55,13 @@ RowMap packFields(const pcl::PCLPointCloud2& cloud, CloudFile& result) {
   return map;
 }
 
-}  // namespace
+} // namespace
 
 pcl::PCLPointCloud2 toPCL(const CloudFile& cloud) {
   const OutputLayout layout = pcdLayout(cloud);
   constexpr std::size_t kLimit = std::numeric_limits<std::uint32_t>::max();
-  if (layout.step * cloud.width > kLimit) throw std::length_error("a row of the cloud has more than 4 GiB, too much for PCL");
+  if (layout.step * cloud.width > kLimit)
+    throw std::length_error("a row of the cloud has more than 4 GiB, too much for PCL");
   pcl::PCLPointCloud2 result;
   for (const CloudField& field : layout.fields) {
     pcl::PCLPointField& target = result.fields.emplace_back();
@@ -100,4 +101,4 @@ CloudFile fromPCL(const pcl::PCLPointCloud2& cloud) {
   return result;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -9,10 +9,10 @@
 namespace pcl_gpf {
 
 PlyCursor::PlyCursor(const LineReader& lines, CloudFormat format)
-    : lines_(lines),
-      byte_(lines.position()),
-      is_text_(format == CloudFormat::PlyAscii),
-      swap_(format == (kHostIsLittleEndian ? CloudFormat::PlyBigEndian : CloudFormat::PlyLittleEndian)) {}
+    : lines_(lines)
+    , byte_(lines.position())
+    , is_text_(format == CloudFormat::PlyAscii)
+    , swap_(format == (kHostIsLittleEndian ? CloudFormat::PlyBigEndian : CloudFormat::PlyLittleEndian)) {}
 
 void PlyCursor::fail(const std::string& promised, const std::string& found) const {
   if (is_text_) lines_.fail(promised, found);
@@ -67,7 +67,8 @@ void PlyCursor::skip(const PlyProperty& property) {
   unsigned char ignored[8];
   const std::uint64_t values = property.is_list ? readLength(property) : 1;
   if (is_text_) {
-    for (std::uint64_t k = 0; k < values; ++k) readValue(property, ignored);
+    for (std::uint64_t k = 0; k < values; ++k)
+      readValue(property, ignored);
   } else {
     takeBytes(values * sizeOf(property.type));
   }
@@ -80,14 +81,17 @@ void PlyCursor::skip(const PlyElement& element) {
   }
   for (std::uint64_t i = 0; i < element.count; ++i) {
     beginRow();
-    for (const PlyProperty& property : element.properties) skip(property);
+    for (const PlyProperty& property : element.properties)
+      skip(property);
     endRow();
   }
 }
 
 void PlyCursor::reportTrailing(CloudFile& cloud) {
-  if (is_text_) reportTrailingLines(lines_, cloud);
-  else reportTrailingBytes(lines_.source().size - byte_, cloud);
+  if (is_text_)
+    reportTrailingLines(lines_, cloud);
+  else
+    reportTrailingBytes(lines_.source().size - byte_, cloud);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

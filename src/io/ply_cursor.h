@@ -36,10 +36,10 @@ public:
 
 private:
   LineReader lines_;
-  std::string_view row_;   // text: what is left of the line
-  std::size_t byte_;       // binary: the next byte
+  std::string_view row_; // text: what is left of the line
+  std::size_t byte_;     // binary: the next byte
   bool is_text_;
   bool swap_;
 };
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

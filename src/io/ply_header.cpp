@@ -18,15 +18,17 @@ struct PlyTypeName {
 };
 
 constexpr PlyTypeName kPlyTypes[] = {
-    {"char", "int8", FieldType::Int8},     {"uchar", "uint8", FieldType::UInt8},
-    {"short", "int16", FieldType::Int16},  {"ushort", "uint16", FieldType::UInt16},
-    {"int", "int32", FieldType::Int32},    {"uint", "uint32", FieldType::UInt32},
+    {"char", "int8", FieldType::Int8},        {"uchar", "uint8", FieldType::UInt8},
+    {"short", "int16", FieldType::Int16},     {"ushort", "uint16", FieldType::UInt16},
+    {"int", "int32", FieldType::Int32},       {"uint", "uint32", FieldType::UInt32},
     {"float", "float32", FieldType::Float32}, {"double", "float64", FieldType::Float64}};
 
 /** One header in the making. */
 class PlyHeaderParser {
 public:
-  explicit PlyHeaderParser(LineReader& lines) : lines_(lines), first_byte_(lines.position()) {}
+  explicit PlyHeaderParser(LineReader& lines)
+      : lines_(lines)
+      , first_byte_(lines.position()) {}
 
   PlyHeader parse() {
     std::string_view line = nextLine();
@@ -65,10 +67,14 @@ private:
     }
     const Tokens values = splitTokens(rest);
     if (keyword == "end_header" && values.empty()) return true;
-    if (keyword == "format") takeFormat(values);
-    else if (keyword == "element") takeElement(values);
-    else if (keyword == "property") takeProperty(values);
-    else lines_.fail("format, comment, obj_info, element, property or end_header", quoted(trimmed(line)));
+    if (keyword == "format")
+      takeFormat(values);
+    else if (keyword == "element")
+      takeElement(values);
+    else if (keyword == "property")
+      takeProperty(values);
+    else
+      lines_.fail("format, comment, obj_info, element, property or end_header", quoted(trimmed(line)));
     return false;
   }
 
@@ -77,10 +83,14 @@ private:
     has_format_ = true;
     if (values.size() != 2 || values[1] != "1.0")
       lines_.fail("format KIND 1.0", values.size() < 2 ? "fewer values" : quoted(values.back()));
-    if (values[0] == "ascii") header_.format = CloudFormat::PlyAscii;
-    else if (values[0] == "binary_little_endian") header_.format = CloudFormat::PlyLittleEndian;
-    else if (values[0] == "binary_big_endian") header_.format = CloudFormat::PlyBigEndian;
-    else lines_.fail("format ascii, binary_little_endian or binary_big_endian", quoted(values[0]));
+    if (values[0] == "ascii")
+      header_.format = CloudFormat::PlyAscii;
+    else if (values[0] == "binary_little_endian")
+      header_.format = CloudFormat::PlyLittleEndian;
+    else if (values[0] == "binary_big_endian")
+      header_.format = CloudFormat::PlyBigEndian;
+    else
+      lines_.fail("format ascii, binary_little_endian or binary_big_endian", quoted(values[0]));
   }
 
   void takeElement(const Tokens& values) {
@@ -122,7 +132,8 @@ private:
     for (const PlyElement& element : header_.elements) {
       if (element.count == 0) continue;
       if (element.properties.empty())
-        lines_.fail("properties for the " + std::to_string(element.count) + " entries of element " + quoted(element.name),
+        lines_.fail("properties for the " + std::to_string(element.count) + " entries of element " +
+                        quoted(element.name),
                     "none");
       const bool is_text = header_.format == CloudFormat::PlyAscii;
       const std::uint64_t row = is_text ? 2 * element.properties.size() - 1 : element.minimumBytes();
@@ -138,7 +149,7 @@ private:
   std::unordered_set<std::string> element_names_, property_names_;
 };
 
-}  // namespace
+} // namespace
 
 const PlyProperty* PlyElement::find(const std::string& property) const noexcept {
   for (const PlyProperty& candidate : properties)
@@ -154,11 +165,14 @@ bool PlyElement::hasLists() const noexcept {
 
 std::size_t PlyElement::minimumBytes() const noexcept {
   std::size_t bytes = 0;
-  for (const PlyProperty& property : properties) bytes += sizeOf(property.is_list ? property.length_type : property.type);
+  for (const PlyProperty& property : properties)
+    bytes += sizeOf(property.is_list ? property.length_type : property.type);
   return bytes;
 }
 
-PlyHeader readPlyHeader(LineReader& lines) { return PlyHeaderParser(lines).parse(); }
+PlyHeader readPlyHeader(LineReader& lines) {
+  return PlyHeaderParser(lines).parse();
+}
 
 const char* plyTypeName(FieldType type) noexcept {
   for (const PlyTypeName& known : kPlyTypes)
@@ -166,4 +180,4 @@ const char* plyTypeName(FieldType type) noexcept {
   return nullptr;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

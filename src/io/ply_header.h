@@ -12,9 +12,9 @@ namespace pcl_gpf {
 
 struct PlyProperty {
   std::string name;
-  FieldType type = FieldType::Float32;  ///< of the value or of the list's entries
+  FieldType type = FieldType::Float32; ///< of the value or of the list's entries
   bool is_list = false;
-  FieldType length_type = FieldType::UInt8;  ///< lists only
+  FieldType length_type = FieldType::UInt8; ///< lists only
 };
 
 struct PlyElement {
@@ -31,7 +31,7 @@ struct PlyElement {
 /** \brief What a PLY header promises. */
 struct PlyHeader {
   std::vector<PlyElement> elements;
-  std::vector<std::string> comments;  ///< of comment and obj_info lines, the latter with that word
+  std::vector<std::string> comments; ///< of comment and obj_info lines, the latter with that word
   CloudFormat format = CloudFormat::PlyAscii;
 };
 
@@ -43,4 +43,4 @@ PlyHeader readPlyHeader(LineReader& lines);
 /** \brief The name of a type in a PLY header ("float"), or nullptr for the 64-bit integers that PLY lacks. */
 const char* plyTypeName(FieldType type) noexcept;
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

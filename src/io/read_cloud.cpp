@@ -33,13 +33,15 @@ bool looksLikePcd(const Source& source) {
   return false;
 }
 
-}  // namespace
+} // namespace
 
 Content detectContent(const Source& source) {
   const std::size_t begin = byteOrderMark(source, nullptr);
-  const std::string_view start(reinterpret_cast<const char*>(source.data) + begin, std::min<std::size_t>(source.size - begin, 4));
-  const bool ends_after_mark = start.size() == 3 || (start.size() == 4 && (start[3] == '\n' || start[3] == '\r' ||
-                                                                            start[3] == ' ' || start[3] == '\t'));
+  const std::string_view start(reinterpret_cast<const char*>(source.data) + begin,
+                               std::min<std::size_t>(source.size - begin, 4));
+  const bool ends_after_mark =
+      start.size() == 3 ||
+      (start.size() == 4 && (start[3] == '\n' || start[3] == '\r' || start[3] == ' ' || start[3] == '\t'));
   if (start.substr(0, 3) == "ply" && ends_after_mark) return Content::Ply;
   return looksLikePcd(source) ? Content::Pcd : Content::Other;
 }
@@ -61,7 +63,7 @@ CloudFile readSource(const Source& source, bool xyz_allowed) {
   return readXyz(source);
 }
 
-}  // namespace
+} // namespace
 
 CloudFile readCloud(const std::string& path) {
   const bool is_standard_input = path == "-";
@@ -99,12 +101,14 @@ void reportTrailingBytes(std::size_t bytes, CloudFile& cloud) {
   if (bytes > 0) cloud.warnings.push_back(std::to_string(bytes) + " bytes after the last promised one are ignored");
 }
 
-void requireBytes(const Source& source, std::size_t body, std::uint64_t rows, std::uint64_t row_bytes, std::size_t left) {
+void requireBytes(const Source& source, std::size_t body, std::uint64_t rows, std::uint64_t row_bytes,
+                  std::size_t left) {
   std::uint64_t promised = 0;
   const bool overflow = __builtin_mul_overflow(rows, row_bytes, &promised);
   if (overflow || promised > left)
-    source.failAtByte(body, "at least " + std::to_string(row_bytes) + " bytes for each of " + std::to_string(rows) + " rows",
+    source.failAtByte(body,
+                      "at least " + std::to_string(row_bytes) + " bytes for each of " + std::to_string(rows) + " rows",
                       std::to_string(left) + " bytes in all");
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -19,7 +19,7 @@ bool startsWithOff(const Source& source) {
   return false;
 }
 
-}  // namespace
+} // namespace
 
 TriangleMesh readMeshBuffer(const unsigned char* data, std::size_t size, const std::string& name) {
   const Source source{data, size, name};
@@ -40,4 +40,4 @@ void appendFan(const std::vector<std::uint32_t>& polygon, TriangleMesh& mesh) {
     mesh.triangles.insert(mesh.triangles.end(), {polygon[0], polygon[k - 1], polygon[k]});
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

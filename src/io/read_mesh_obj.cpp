@@ -13,18 +13,22 @@ namespace {
 
 /** Statements of the OBJ format that say nothing about vertices and faces. */
 constexpr std::string_view kSkipped[] = {
-    "vt",   "vn",   "vp",   "g",    "o",   "s",   "mg",   "l",   "p",     "usemtl",   "mtllib",   "maplib", "usemap",
-    "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con",
-    "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh"};
+    "vt",     "vn",         "vp",        "g",      "o",     "s",    "mg",   "l",     "p",        "usemtl",
+    "mtllib", "maplib",     "usemap",    "cstype", "deg",   "bmat", "step", "curv",  "curv2",    "surf",
+    "parm",   "trim",       "hole",      "scrv",   "sp",    "end",  "con",  "bevel", "c_interp", "d_interp",
+    "lod",    "shadow_obj", "trace_obj", "ctech",  "stech", "call", "csh"};
 
 /** One OBJ file: `v x y z` and `f a/b/c ...` lines in any order. */
 class ObjReader {
 public:
-  explicit ObjReader(const Source& source) : source_(source), lines_(source, byteOrderMark(source, nullptr)) {}
+  explicit ObjReader(const Source& source)
+      : source_(source)
+      , lines_(source, byteOrderMark(source, nullptr)) {}
 
   TriangleMesh read() {
     std::string_view line;
-    while (lines_.nextFilled(line)) takeLine(line);
+    while (lines_.nextFilled(line))
+      takeLine(line);
     if (mesh_.triangles.empty()) source_.fail("at least one face", "none");
     if (largest_index_ >= mesh_.vertexCount())
       source_.failAtLine(largest_index_line_, "a vertex number up to " + std::to_string(mesh_.vertexCount()),
@@ -40,8 +44,10 @@ private:
     line = line.substr(0, line.find('#'));
     const std::string text = trimmed(line);
     if (!text.empty() && text.back() == '\\') lines_.fail("a statement on one line", "a line continued by a backslash");
-    if (word == "v") takeVertex(line);
-    else if (word == "f") takeFace(line);
+    if (word == "v")
+      takeVertex(line);
+    else if (word == "f")
+      takeFace(line);
     else if (std::find(std::begin(kSkipped), std::end(kSkipped), word) == std::end(kSkipped))
       lines_.fail("a statement of the OBJ format", quoted(word));
   }
@@ -94,8 +100,10 @@ private:
   TriangleMesh mesh_;
 };
 
-}  // namespace
+} // namespace
 
-TriangleMesh readMeshObj(const Source& source) { return ObjReader(source).read(); }
+TriangleMesh readMeshObj(const Source& source) {
+  return ObjReader(source).read();
+}
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -12,13 +12,17 @@ namespace {
 /** One OFF file: the word OFF, three counts, vertices, faces; # starts a comment anywhere. */
 class OffReader {
 public:
-  explicit OffReader(const Source& source) : source_(source), lines_(source, byteOrderMark(source, nullptr)) {}
+  explicit OffReader(const Source& source)
+      : source_(source)
+      , lines_(source, byteOrderMark(source, nullptr)) {}
 
   TriangleMesh read() {
     readCounts();
     mesh_.vertices.reserve(3 * static_cast<std::size_t>(vertices_));
-    for (std::uint64_t i = 0; i < vertices_; ++i) readVertex();
-    for (std::uint64_t i = 0; i < faces_; ++i) readFace();
+    for (std::uint64_t i = 0; i < vertices_; ++i)
+      readVertex();
+    for (std::uint64_t i = 0; i < faces_; ++i)
+      readFace();
     if (mesh_.triangles.empty()) source_.fail("at least one face", "none");
     return std::move(mesh_);
   }
@@ -50,8 +54,8 @@ private:
     std::string_view edges;
     if (takeToken(row_, edges)) parseCount(lines_, edges, "the number of edges");
     if (!trimmed(row_).empty()) lines_.fail("three counts", "more");
-    constexpr std::uint64_t kShortestVertex = 5;  // "0 0 0"
-    constexpr std::uint64_t kShortestFace = 7;    // "3 0 1 2"
+    constexpr std::uint64_t kShortestVertex = 5; // "0 0 0"
+    constexpr std::uint64_t kShortestFace = 7;   // "3 0 1 2"
     requireBytes(source_, lines_.position(), vertices_, kShortestVertex, lines_.bytesLeft());
     requireBytes(source_, lines_.position(), faces_, kShortestFace,
                  lines_.bytesLeft() - static_cast<std::size_t>(vertices_ * kShortestVertex));
@@ -100,8 +104,10 @@ private:
   TriangleMesh mesh_;
 };
 
-}  // namespace
+} // namespace
 
-TriangleMesh readMeshOff(const Source& source) { return OffReader(source).read(); }
+TriangleMesh readMeshOff(const Source& source) {
+  return OffReader(source).read();
+}
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

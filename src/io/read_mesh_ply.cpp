@@ -57,15 +57,17 @@ void readFaces(PlyCursor& cursor, const PlyElement& element, std::uint64_t verti
   for (std::uint64_t i = 0; i < element.count; ++i) {
     cursor.beginRow();
     for (const PlyProperty& property : element.properties) {
-      if (&property == corners) readPolygon(cursor, property, vertices, polygon);
-      else cursor.skip(property);
+      if (&property == corners)
+        readPolygon(cursor, property, vertices, polygon);
+      else
+        cursor.skip(property);
     }
     cursor.endRow();
     appendFan(polygon, mesh);
   }
 }
 
-}  // namespace
+} // namespace
 
 TriangleMesh readMeshPly(const Source& source) {
   LineReader lines(source, byteOrderMark(source, nullptr));
@@ -76,12 +78,15 @@ TriangleMesh readMeshPly(const Source& source) {
   TriangleMesh mesh;
   PlyCursor cursor(lines, header.format);
   for (const PlyElement& element : header.elements) {
-    if (element.name == "vertex") readVertices(cursor, element, mesh);
-    else if (element.name == "face") readFaces(cursor, element, vertices, mesh);
-    else cursor.skip(element);
+    if (element.name == "vertex")
+      readVertices(cursor, element, mesh);
+    else if (element.name == "face")
+      readFaces(cursor, element, vertices, mesh);
+    else
+      cursor.skip(element);
   }
   if (mesh.triangles.empty()) source.fail("at least one face", "none");
   return mesh;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstring>
+#include <algorithm>
 
 #include "io/element_bytes.h"
 #include "io/format_readers.h"
@@ -45,7 +45,8 @@ void readAsciiRow(LineReader& lines, std::string_view line, const PcdHeader& hea
 
 void readAscii(LineReader& lines, const PcdHeader& header, CloudFile& cloud) {
   std::uint64_t columns = 0;
-  for (const CloudField& column : header.columns) columns += column.count;
+  for (const CloudField& column : header.columns)
+    columns += column.count;
   requireBytes(lines.source(), lines.position(), cloud.size(), 2 * columns - 1, lines.bytesLeft());
   const std::size_t step = cloud.pointStep();
   cloud.data.resize(cloud.size() * step);
@@ -81,6 +82,12 @@ std::size_t littleEndian32(const unsigned char* bytes) {
          static_cast<std::size_t>(bytes[2]) << 16 | static_cast<std::size_t>(bytes[3]) << 24;
 }
 
+/** Some versions of PCL round a compressed file up towards a whole page with zeros; that is nothing to warn of. */
+bool isPagePadding(const unsigned char* bytes, std::size_t size) {
+  constexpr std::size_t kPage = 4096;
+  return size < kPage && std::all_of(bytes, bytes + size, [](unsigned char byte) { return byte == 0; });
+}
+
 /** Unpacks the body: all elements of the first field, then all of the second ... */
 std::vector<unsigned char> unpackedBody(const LineReader& lines, const PcdHeader& header, CloudFile& cloud) {
   const Source& source = lines.source();
@@ -100,12 +107,15 @@ std::vector<unsigned char> unpackedBody(const LineReader& lines, const PcdHeader
     source.failAtByte(body, "a compressed size within the " + std::to_string(left) + " bytes that follow",
                       std::to_string(packed));
   if (unpacked > lzfCapacity(packed))
-    source.failAtByte(body + 4, "at most " + std::to_string(lzfCapacity(packed)) + " bytes from " + std::to_string(packed),
+    source.failAtByte(body + 4,
+                      "at most " + std::to_string(lzfCapacity(packed)) + " bytes from " + std::to_string(packed),
                       std::to_string(unpacked));
   std::vector<unsigned char> columns(unpacked);
   if (!lzfDecompress(source.data + body + kSizes, packed, columns.data(), unpacked))
-    source.failAtByte(body + kSizes, "LZF data that unpack to " + std::to_string(unpacked) + " bytes", "a broken stream");
-  reportTrailingBytes(left - packed, cloud);
+    source.failAtByte(body + kSizes, "LZF data that unpack to " + std::to_string(unpacked) + " bytes",
+                      "a broken stream");
+  const unsigned char* end = source.data + body + kSizes + packed;
+  if (!isPagePadding(end, left - packed)) reportTrailingBytes(left - packed, cloud);
   return columns;
 }
 
@@ -130,7 +140,7 @@ void readCompressed(const LineReader& lines, const PcdHeader& header, CloudFile&
   fromLittleEndian(cloud);
 }
 
-}  // namespace
+} // namespace
 
 CloudFile readPcd(const Source& source) {
   std::vector<std::string> warnings;
@@ -140,11 +150,14 @@ CloudFile readPcd(const Source& source) {
   cloud.warnings.insert(cloud.warnings.begin(), warnings.begin(), warnings.end());
   const RowMap map = dropPadding(header, cloud);
   requireCoordinates(source, cloud);
-  if (cloud.format == CloudFormat::PcdAscii) readAscii(lines, header, cloud);
-  else if (cloud.format == CloudFormat::PcdBinary) readBinary(lines, header, map, cloud);
-  else readCompressed(lines, header, cloud);
+  if (cloud.format == CloudFormat::PcdAscii)
+    readAscii(lines, header, cloud);
+  else if (cloud.format == CloudFormat::PcdBinary)
+    readBinary(lines, header, map, cloud);
+  else
+    readCompressed(lines, header, cloud);
   lines.reportLineEnds(cloud.warnings);
   return cloud;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

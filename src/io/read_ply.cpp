@@ -30,8 +30,10 @@ EntryCounts countEntries(PlyCursor cursor, const PlyElement& vertex) {
       PlyCursor ahead = cursor;
       const auto length = static_cast<std::uint32_t>(ahead.readLength(property));
       cursor.skip(property);
-      if (i == 0) counts[p] = length;
-      else if (counts[p] != length) counts[p] = 0;
+      if (i == 0)
+        counts[p] = length;
+      else if (counts[p] != length)
+        counts[p] = 0;
     }
     cursor.endRow();
   }
@@ -82,8 +84,9 @@ void readRows(PlyCursor& cursor, const PlyElement& vertex, const EntryCounts& co
         cursor.skip(property);
         continue;
       }
-      if (property.is_list) cursor.readLength(property);  // the first walk knows it
-      for (std::uint32_t k = 0; k < counts[p]; ++k, to += sizeOf(property.type)) cursor.readValue(property, to);
+      if (property.is_list) cursor.readLength(property); // the first walk knows it
+      for (std::uint32_t k = 0; k < counts[p]; ++k, to += sizeOf(property.type))
+        cursor.readValue(property, to);
     }
     cursor.endRow();
   }
@@ -93,8 +96,10 @@ void readVertices(PlyCursor& cursor, const PlyElement& vertex, CloudFile& cloud)
   const EntryCounts counts = countEntries(cursor, vertex);
   cloud.width = static_cast<std::uint32_t>(vertex.count);
   addFields(vertex, counts, cloud);
-  if (!cursor.isText() && !vertex.hasLists()) readFixedRows(cursor, cloud);
-  else readRows(cursor, vertex, counts, cloud);
+  if (!cursor.isText() && !vertex.hasLists())
+    readFixedRows(cursor, cloud);
+  else
+    readRows(cursor, vertex, counts, cloud);
 }
 
 /** Rotation matrix, rows first, to the quaternion w x y z (Shepperd's choice of the largest divisor). */
@@ -139,11 +144,13 @@ void readCamera(PlyCursor& cursor, const PlyElement& camera, CloudFile& cloud) {
   }
   cursor.endRow();
   std::array<double, 9> matrix{};
-  for (std::size_t n = 0; n < 9; ++n) matrix[n] = values[3 + n];
+  for (std::size_t n = 0; n < 9; ++n)
+    matrix[n] = values[3 + n];
   const std::array<double, 4> rotation = quaternion(matrix);
   double norm = 0;
-  for (const double part : rotation) norm += part * part;
-  constexpr double kUnitTolerance = 1e-3;  // the entries are floats
+  for (const double part : rotation)
+    norm += part * part;
+  constexpr double kUnitTolerance = 1e-3; // the entries are floats
   if (found < values.size() || !(std::abs(norm - 1) < kUnitTolerance)) return;
   cloud.viewpoint = {values[0], values[1], values[2], rotation[0], rotation[1], rotation[2], rotation[3]};
 }
@@ -155,19 +162,24 @@ void takeComments(const PlyHeader& header, std::size_t points, CloudFile& cloud)
   for (const std::string& comment : header.comments) {
     const std::vector<std::string_view> tokens = splitTokens(comment);
     unsigned char bytes[8];
-    const bool is_size = tokens.size() == 3 && tokens[0] == "obj_info" && parseElement(FieldType::UInt32, tokens[2], bytes);
-    if (is_size && tokens[1] == "num_cols") columns = static_cast<std::uint64_t>(loadElement(FieldType::UInt32, bytes));
-    else if (is_size && tokens[1] == "num_rows") rows = static_cast<std::uint64_t>(loadElement(FieldType::UInt32, bytes));
-    else others.push_back(comment);
+    const bool is_size =
+        tokens.size() == 3 && tokens[0] == "obj_info" && parseElement(FieldType::UInt32, tokens[2], bytes);
+    if (is_size && tokens[1] == "num_cols")
+      columns = static_cast<std::uint64_t>(loadElement(FieldType::UInt32, bytes));
+    else if (is_size && tokens[1] == "num_rows")
+      rows = static_cast<std::uint64_t>(loadElement(FieldType::UInt32, bytes));
+    else
+      others.push_back(comment);
   }
   const bool is_organisation = columns && rows && *rows > 0 && *columns * *rows == points && points > 0;
-  for (const std::string& comment : is_organisation ? others : header.comments) takeComment(comment, cloud);
+  for (const std::string& comment : is_organisation ? others : header.comments)
+    takeComment(comment, cloud);
   if (!is_organisation) return;
   cloud.width = static_cast<std::uint32_t>(*columns);
   cloud.height = static_cast<std::uint32_t>(*rows);
 }
 
-}  // namespace
+} // namespace
 
 CloudFile readPly(const Source& source) {
   CloudFile cloud;
@@ -194,4 +206,4 @@ CloudFile readPly(const Source& source) {
   return cloud;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

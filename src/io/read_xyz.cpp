@@ -17,7 +17,9 @@ constexpr std::size_t kMaxCommentBytes = std::size_t{1} << 16;
 /** XYZ text in the making: rows of doubles, as many in each as in the first. */
 class XyzReader {
 public:
-  explicit XyzReader(const Source& source) : source_(source), lines_(source, byteOrderMark(source, &cloud_.warnings)) {
+  explicit XyzReader(const Source& source)
+      : source_(source)
+      , lines_(source, byteOrderMark(source, &cloud_.warnings)) {
     cloud_.format = CloudFormat::Xyz;
   }
 
@@ -27,9 +29,12 @@ public:
       std::string_view rest = line;
       std::string_view first;
       takeToken(rest, first);
-      if (first[0] == '#' || first.substr(0, 2) == "//") takeCommentLine(line);
-      else if (columns_ == 0 && !promised_points_ && isLoneInteger(line)) takePointCount(first);
-      else takeRow(line);
+      if (first[0] == '#' || first.substr(0, 2) == "//")
+        takeCommentLine(line);
+      else if (columns_ == 0 && !promised_points_ && isLoneInteger(line))
+        takePointCount(first);
+      else
+        takeRow(line);
     }
     if (columns_ == 0) source_.fail("rows of at least three numbers", "no row");
     if (promised_points_ && *promised_points_ != points_)
@@ -71,7 +76,8 @@ private:
       cloud_.data.insert(cloud_.data.end(), value, value + sizeof value);
     }
     if (count != columns_ || !token.empty())
-      lines_.fail(std::to_string(columns_) + " columns, as in the first row", token.empty() ? std::to_string(count) : "more");
+      lines_.fail(std::to_string(columns_) + " columns, as in the first row",
+                  token.empty() ? std::to_string(count) : "more");
     if (++points_ > kMaxCount) lines_.fail("at most 2^31 - 1 points", "more");
   }
 
@@ -106,7 +112,8 @@ private:
     if (!usable) {
       names_ = {"x", "y", "z"};
       if (columns_ == 6) names_.insert(names_.end(), {"normal_x", "normal_y", "normal_z"});
-      while (names_.size() < columns_) names_.push_back("c" + std::to_string(names_.size() + 1));
+      while (names_.size() < columns_)
+        names_.push_back("c" + std::to_string(names_.size() + 1));
     }
     for (std::size_t c = 0; c < columns_; ++c)
       cloud_.fields.push_back({names_[c], FieldType::Float64, 1, c * sizeof(double)});
@@ -122,8 +129,10 @@ private:
   std::size_t comment_bytes_ = 0;
 };
 
-}  // namespace
+} // namespace
 
-CloudFile readXyz(const Source& source) { return XyzReader(source).read(); }
+CloudFile readXyz(const Source& source) {
+  return XyzReader(source).read();
+}
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -25,7 +25,8 @@ void RowMap::apply(const unsigned char* from, std::size_t from_step, unsigned ch
     return;
   }
   for (std::size_t row = 0; row < rows; ++row, from += from_step, to += to_step)
-    for (const Piece& piece : pieces_) std::memcpy(to + piece.to, from + piece.from, piece.bytes);
+    for (const Piece& piece : pieces_)
+      std::memcpy(to + piece.to, from + piece.from, piece.bytes);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -23,4 +23,4 @@ private:
   std::vector<Piece> pieces_;
 };
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -32,7 +32,7 @@ void removeTemporaries(int signal_number) {
   for (Slot& slot : slots)
     if (slot.state.load(std::memory_order_acquire) == kInUse) ::unlink(slot.path);
   ::signal(signal_number, SIG_DFL);
-  ::raise(signal_number);  // is delivered when the handler returns
+  ::raise(signal_number); // is delivered when the handler returns
   errno = saved_error;
 }
 
@@ -45,7 +45,7 @@ void installHandler(int signal_number) {
   ::sigaction(signal_number, &action, nullptr);
 }
 
-}  // namespace
+} // namespace
 
 int rememberTemporary(const std::string& path) noexcept {
   if (path.size() >= PATH_MAX) return -1;
@@ -64,8 +64,9 @@ void forgetTemporary(int slot) noexcept {
 }
 
 void installSignalCleanup() {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) installHandler(signal_number);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
+    installHandler(signal_number);
   ::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

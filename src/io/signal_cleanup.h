@@ -13,4 +13,4 @@ int rememberTemporary(const std::string& path) noexcept;
 /** \brief The file is gone or renamed. */
 void forgetTemporary(int slot) noexcept;
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

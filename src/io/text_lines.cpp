@@ -67,7 +67,8 @@ void LineReader::reportLineEnds(std::vector<std::string>& warnings) const {
 std::vector<std::string_view> splitTokens(std::string_view line) {
   std::vector<std::string_view> tokens;
   std::string_view token;
-  while (takeToken(line, token)) tokens.push_back(token);
+  while (takeToken(line, token))
+    tokens.push_back(token);
   return tokens;
 }
 
@@ -78,7 +79,9 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
-std::string quoted(std::string_view token) { return "'" + printable(std::string(token.substr(0, 100))) + "'"; }
+std::string quoted(std::string_view token) {
+  return "'" + printable(std::string(token.substr(0, 100))) + "'";
+}
 
 std::uint64_t parseCount(const LineReader& lines, std::string_view token, const std::string& what) {
   std::uint64_t value = 0;
@@ -96,4 +99,4 @@ std::size_t byteOrderMark(const Source& source, std::vector<std::string>* warnin
   return sizeof kMark;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -23,7 +23,9 @@ struct Source {
 /** \brief Walks over the lines of a file that end in LF, CR LF or (when the first line does) a lone CR. */
 class LineReader {
 public:
-  LineReader(const Source& source, std::size_t first_byte) : source_(&source), next_(first_byte) {}
+  LineReader(const Source& source, std::size_t first_byte)
+      : source_(&source)
+      , next_(first_byte) {}
 
   /** \brief The next line without its end. \return false when no byte is left */
   bool next(std::string_view& line);
@@ -50,7 +52,7 @@ private:
   const Source* source_;
   std::size_t next_;
   std::size_t line_number_ = 0;
-  char line_end_ = '\0';  // not known yet
+  char line_end_ = '\0'; // not known yet
   bool saw_lf_ = false;
   bool saw_crlf_ = false;
 };
@@ -60,9 +62,11 @@ inline bool takeToken(std::string_view& line, std::string_view& token) noexcept 
   const auto is_blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
   const char* begin = line.data();
   const char* const end = begin + line.size();
-  while (begin != end && is_blank(*begin)) ++begin;
+  while (begin != end && is_blank(*begin))
+    ++begin;
   const char* stop = begin;
-  while (stop != end && !is_blank(*stop)) ++stop;
+  while (stop != end && !is_blank(*stop))
+    ++stop;
   token = std::string_view(begin, static_cast<std::size_t>(stop - begin));
   line = std::string_view(stop, static_cast<std::size_t>(end - stop));
   return !token.empty();
@@ -82,4 +86,4 @@ std::uint64_t parseCount(const LineReader& lines, std::string_view token, const 
 /** \brief Bytes of a UTF-8 byte-order mark at the start: 3 or 0. */
 std::size_t byteOrderMark(const Source& source, std::vector<std::string>* warnings);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

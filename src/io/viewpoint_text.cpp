@@ -50,12 +50,14 @@ std::vector<std::string> commentLines(const CloudFile& cloud) {
       line.clear();
     };
     for (const char c : comment) {
-      if (c == '\n' || c == '\r') finish();
-      else if (static_cast<unsigned char>(c) >= 0x20 || c == '\t') line += c;
+      if (c == '\n' || c == '\r')
+        finish();
+      else if (static_cast<unsigned char>(c) >= 0x20 || c == '\t')
+        line += c;
     }
     finish();
   }
   return lines;
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -18,10 +18,12 @@ std::string viewpointText(const std::array<double, 7>& viewpoint);
 /** \brief Parses exactly seven numbers. \return false, and \a viewpoint unchanged, on anything else */
 bool parseViewpoint(const std::vector<std::string_view>& tokens, std::array<double, 7>& viewpoint);
 
-/** \brief Keeps a comment of a PLY or XYZ file; "viewpoint" and seven numbers, as the writers note it, sets the viewpoint. */
+/** \brief Keeps a comment of a PLY or XYZ file; "viewpoint" and seven numbers, as the writers note it, sets the
+ * viewpoint. */
 void takeComment(std::string_view text, CloudFile& cloud);
 
-/** \brief The cloud's comments as lines fit for a header: split at line ends, control characters and over-long rests dropped. */
+/** \brief The cloud's comments as lines fit for a header: split at line ends, control characters and over-long rests
+ * dropped. */
 std::vector<std::string> commentLines(const CloudFile& cloud);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -60,9 +60,11 @@ LengthPrefixedRows prefixLengths(const OutputLayout& layout, ListLengths lengths
   return rows;
 }
 
-}  // namespace
+} // namespace
 
-FieldType listLengthType(std::uint32_t count) noexcept { return count < 256 ? FieldType::UInt8 : FieldType::UInt32; }
+FieldType listLengthType(std::uint32_t count) noexcept {
+  return count < 256 ? FieldType::UInt8 : FieldType::UInt32;
+}
 
 void writeTextRows(const CloudFile& cloud, const OutputLayout& layout, ListLengths lengths, const ByteSink& sink) {
   std::string text;
@@ -71,7 +73,8 @@ void writeTextRows(const CloudFile& cloud, const OutputLayout& layout, ListLengt
       for (const CloudField& field : layout.fields) {
         if (hasLength(field, lengths)) text += std::to_string(field.count) + ' ';
         const std::size_t size = sizeOf(field.type);
-        for (std::size_t k = 0; k < field.count; ++k) appendText(field.type, row + field.offset + k * size, text);
+        for (std::size_t k = 0; k < field.count; ++k)
+          appendText(field.type, row + field.offset + k * size, text);
       }
       text.back() = '\n';
       if (text.size() < kBlockBytes) continue;
@@ -103,4 +106,4 @@ void writeBinaryRows(const CloudFile& cloud, const OutputLayout& layout, ListLen
   });
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -18,4 +18,4 @@ void writeTextRows(const CloudFile& cloud, const OutputLayout& layout, ListLengt
 void writeBinaryRows(const CloudFile& cloud, const OutputLayout& layout, ListLengths lengths, bool swap_bytes,
                      const ByteSink& sink);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

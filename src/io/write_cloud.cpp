@@ -32,7 +32,9 @@ bool isPcd(CloudFormat format) {
   return format == CloudFormat::PcdAscii || format == CloudFormat::PcdBinary || format == CloudFormat::PcdCompressed;
 }
 
-bool isPly(CloudFormat format) { return !isPcd(format) && format != CloudFormat::Xyz; }
+bool isPly(CloudFormat format) {
+  return !isPcd(format) && format != CloudFormat::Xyz;
+}
 
 void validate(const CloudFile& cloud) {
   std::size_t offset = 0;
@@ -85,12 +87,15 @@ void writeAll(int file, const char* bytes, std::size_t size, const std::string& 
 }
 
 void writeAs(const CloudFile& cloud, CloudFormat format, const ByteSink& sink) {
-  if (isPcd(format)) writePcd(cloud, format, sink);
-  else if (isPly(format)) writePly(cloud, format, sink);
-  else writeXyz(cloud, sink);
+  if (isPcd(format))
+    writePcd(cloud, format, sink);
+  else if (isPly(format))
+    writePly(cloud, format, sink);
+  else
+    writeXyz(cloud, sink);
 }
 
-}  // namespace
+} // namespace
 
 CloudFormat formatForPath(const std::string& path, const CloudFile& cloud) {
   if (path == "-") return cloud.format;
@@ -106,12 +111,14 @@ CloudFormat formatForPath(const std::string& path, const CloudFile& cloud) {
   }
   for (const char* xyz : {".xyz", ".txt", ".asc", ".pts"})
     if (extension == xyz) return CloudFormat::Xyz;
-  refuse(path, "the extension .pcd, .ply, .xyz, .txt, .asc or .pts", extension.empty() ? "none" : "'" + extension + "'");
+  refuse(path, "the extension .pcd, .ply, .xyz, .txt, .asc or .pts",
+         extension.empty() ? "none" : "'" + extension + "'");
 }
 
 void checkFits(const CloudFile& cloud, CloudFormat format, const std::string& path) {
   std::uint64_t columns = 0;
-  for (const CloudField& field : cloud.fields) columns += format == CloudFormat::Xyz ? field.count : 1;
+  for (const CloudField& field : cloud.fields)
+    columns += format == CloudFormat::Xyz ? field.count : 1;
   // Packed colours become up to four columns.
   if (columns + 3 > kMaxFields) refuse(path, "fewer than 997 columns", std::to_string(columns));
   if (cloud.size() > kMaxCount) refuse(path, "at most 2^31 - 1 points", std::to_string(cloud.size()));
@@ -139,4 +146,4 @@ void writeCloud(const CloudFile& cloud, const std::string& path, const WriteOpti
   file.commit();
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

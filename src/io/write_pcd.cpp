@@ -14,13 +14,16 @@ namespace {
 
 char typeLetter(FieldType type) {
   switch (type) {
-    case FieldType::Float32:
-    case FieldType::Float64: return 'F';
-    case FieldType::UInt8:
-    case FieldType::UInt16:
-    case FieldType::UInt32:
-    case FieldType::UInt64: return 'U';
-    default: return 'I';
+  case FieldType::Float32:
+  case FieldType::Float64:
+    return 'F';
+  case FieldType::UInt8:
+  case FieldType::UInt16:
+  case FieldType::UInt32:
+  case FieldType::UInt64:
+    return 'U';
+  default:
+    return 'I';
   }
 }
 
@@ -37,7 +40,8 @@ std::string fieldLine(const char* keyword, const OutputLayout& layout, Value val
 
 std::string header(const CloudFile& cloud, const OutputLayout& layout, const char* kind) {
   std::string text = "# .PCD v0.7 - Point Cloud Data file format\n";
-  for (const std::string& comment : commentLines(cloud)) text += "# " + comment + '\n';
+  for (const std::string& comment : commentLines(cloud))
+    text += "# " + comment + '\n';
   text += "VERSION 0.7\n";
   text += fieldLine("FIELDS", layout, [](const CloudField& field) { return field.name; });
   text += fieldLine("SIZE", layout, [](const CloudField& field) { return std::to_string(sizeOf(field.type)); });
@@ -65,7 +69,8 @@ void keepColourBits(const CloudFile& cloud, OutputLayout& layout) {
 }
 
 void appendLittleEndian32(std::size_t value, std::string& text) {
-  for (unsigned shift = 0; shift < 32; shift += 8) text += static_cast<char>(value >> shift & 0xff);
+  for (unsigned shift = 0; shift < 32; shift += 8)
+    text += static_cast<char>(value >> shift & 0xff);
 }
 
 void writeCompressedBody(const CloudFile& cloud, const OutputLayout& layout, const ByteSink& sink) {
@@ -79,8 +84,8 @@ void writeCompressedBody(const CloudFile& cloud, const OutputLayout& layout, con
       const std::size_t field_bytes = sizeOf(field.type) * field.count;
       RowMap map;
       map.add(field.offset, 0, field_bytes);
-      map.apply(static_cast<const unsigned char*>(bytes), layout.step,
-                columns.data() + field_begin + row * field_bytes, field_bytes, rows);
+      map.apply(static_cast<const unsigned char*>(bytes), layout.step, columns.data() + field_begin + row * field_bytes,
+                field_bytes, rows);
       field_begin += field_bytes * cloud.size();
     }
     row += rows;
@@ -93,7 +98,7 @@ void writeCompressedBody(const CloudFile& cloud, const OutputLayout& layout, con
   sink(packed.data(), packed.size());
 }
 
-}  // namespace
+} // namespace
 
 void writePcd(const CloudFile& cloud, CloudFormat format, const ByteSink& sink) {
   OutputLayout layout = pcdLayout(cloud);
@@ -102,9 +107,12 @@ void writePcd(const CloudFile& cloud, CloudFormat format, const ByteSink& sink) 
   const char* kind = is_text ? "ascii" : format == CloudFormat::PcdBinary ? "binary" : "binary_compressed";
   const std::string text = header(cloud, layout, kind);
   sink(text.data(), text.size());
-  if (is_text) writeTextRows(cloud, layout, ListLengths::None, sink);
-  else if (format == CloudFormat::PcdBinary) writeBinaryRows(cloud, layout, ListLengths::None, !kHostIsLittleEndian, sink);
-  else writeCompressedBody(cloud, layout, sink);
+  if (is_text)
+    writeTextRows(cloud, layout, ListLengths::None, sink);
+  else if (format == CloudFormat::PcdBinary)
+    writeBinaryRows(cloud, layout, ListLengths::None, !kHostIsLittleEndian, sink);
+  else
+    writeCompressedBody(cloud, layout, sink);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -18,10 +18,12 @@ const char* formatName(CloudFormat format) {
 
 std::string header(const CloudFile& cloud, const OutputLayout& layout, CloudFormat format) {
   std::string text = std::string("ply\nformat ") + formatName(format) + " 1.0\n";
-  for (const std::string& comment : commentLines(cloud)) text += "comment " + comment + '\n';
+  for (const std::string& comment : commentLines(cloud))
+    text += "comment " + comment + '\n';
   if (cloud.viewpoint != kIdentityViewpoint) text += "comment viewpoint " + viewpointText(cloud.viewpoint) + '\n';
   if (cloud.isOrganized())
-    text += "obj_info num_cols " + std::to_string(cloud.width) + "\nobj_info num_rows " + std::to_string(cloud.height) + '\n';
+    text += "obj_info num_cols " + std::to_string(cloud.width) + "\nobj_info num_rows " + std::to_string(cloud.height) +
+            '\n';
   text += "element vertex " + std::to_string(cloud.size()) + '\n';
   for (const CloudField& field : layout.fields) {
     text += "property ";
@@ -52,7 +54,7 @@ CloudFile withoutWideIntegers(CloudFile cloud) {
   return cloud;
 }
 
-}  // namespace
+} // namespace
 
 void writePly(const CloudFile& cloud, CloudFormat format, const ByteSink& sink) {
   if (hasWideIntegers(cloud)) {
@@ -70,4 +72,4 @@ void writePly(const CloudFile& cloud, CloudFormat format, const ByteSink& sink) 
   writeBinaryRows(cloud, layout, ListLengths::Written, !is_host_order, sink);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

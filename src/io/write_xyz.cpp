@@ -18,16 +18,17 @@ std::string columnNames(const OutputLayout& layout) {
   return names;
 }
 
-}  // namespace
+} // namespace
 
 void writeXyz(const CloudFile& cloud, const ByteSink& sink) {
   const OutputLayout layout = xyzLayout(cloud);
   std::string text;
-  for (const std::string& comment : commentLines(cloud)) text += "# " + comment + '\n';
+  for (const std::string& comment : commentLines(cloud))
+    text += "# " + comment + '\n';
   if (cloud.viewpoint != kIdentityViewpoint) text += "# viewpoint " + viewpointText(cloud.viewpoint) + '\n';
   text += "# columns:" + columnNames(layout) + '\n';
   sink(text.data(), text.size());
   writeTextRows(cloud, layout, ListLengths::None, sink);
 }
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

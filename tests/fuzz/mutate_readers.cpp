@@ -32,7 +32,9 @@ void reportCrash(int signal_number) {
   std::raise(signal_number);
 }
 
-Bytes bytesOf(const std::string& text) { return {text.begin(), text.end()}; }
+Bytes bytesOf(const std::string& text) {
+  return {text.begin(), text.end()};
+}
 
 /** A cloud of several types and element counts, in every format, through a temporary folder. */
 std::vector<Bytes> writtenSeeds() {
@@ -43,17 +45,21 @@ std::vector<Bytes> writtenSeeds() {
   cloud.addField("y", FieldType::Float64);
   cloud.addField("list", FieldType::Int16, 3);
   cloud.addField("z", FieldType::Int32);
-  for (const char* channel : {"red", "green", "blue"}) cloud.addField(channel, FieldType::UInt8);
+  for (const char* channel : {"red", "green", "blue"})
+    cloud.addField(channel, FieldType::UInt8);
   cloud.addField("time", FieldType::UInt64);
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    for (int field = 0; field < 8; ++field) cloud.setValue(i, field, static_cast<double>(i) * 1.25);
+    for (int field = 0; field < 8; ++field)
+      cloud.setValue(i, field, static_cast<double>(i) * 1.25);
   cloud.viewpoint[0] = 2.5;
   cloud.comments = {"a comment"};
-  const auto folder = std::filesystem::temp_directory_path() / ("pcl_gpf_fuzz_" + std::to_string(std::random_device()()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("pcl_gpf_fuzz_" + std::to_string(std::random_device()()));
   std::filesystem::create_directory(folder);
   std::vector<Bytes> seeds;
-  for (const CloudFormat format : {CloudFormat::PcdAscii, CloudFormat::PcdBinary, CloudFormat::PcdCompressed, CloudFormat::PlyAscii,
-                                   CloudFormat::PlyLittleEndian, CloudFormat::PlyBigEndian, CloudFormat::Xyz}) {
+  for (const CloudFormat format :
+       {CloudFormat::PcdAscii, CloudFormat::PcdBinary, CloudFormat::PcdCompressed, CloudFormat::PlyAscii,
+        CloudFormat::PlyLittleEndian, CloudFormat::PlyBigEndian, CloudFormat::Xyz}) {
     WriteOptions options;
     options.format = format;
     options.overwrite = true;
@@ -68,20 +74,23 @@ std::vector<Bytes> writtenSeeds() {
 
 std::vector<Bytes> allSeeds() {
   std::vector<Bytes> seeds = writtenSeeds();
-  const std::string header = "element vertex 3\nproperty list uchar short before\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string header =
+      "element vertex 3\nproperty list uchar short before\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
   const std::string rows = "1 5 0 0 0\n2 5 6 1 0 0\n1 7 0 1 0\n";
   std::string camera = "element camera 1\n";
-  for (const char* name : {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy", "x_axisz", "y_axisx", "y_axisy", "y_axisz",
-                           "z_axisx", "z_axisy", "z_axisz"})
+  for (const char* name : {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy", "x_axisz", "y_axisx", "y_axisy",
+                           "y_axisz", "z_axisx", "z_axisy", "z_axisz"})
     camera += std::string("property float ") + name + '\n';
-  seeds.push_back(bytesOf("ply\nformat ascii 1.0\nobj_info num_cols 3\nobj_info num_rows 1\n" + header + camera + faces +
-                          "end_header\n" + rows + "0 0 0 1 0 0 0 1 0 0 0 1\n3 0 1 2\n"));
+  seeds.push_back(bytesOf("ply\nformat ascii 1.0\nobj_info num_cols 3\nobj_info num_rows 1\n" + header + camera +
+                          faces + "end_header\n" + rows + "0 0 0 1 0 0 0 1 0 0 0 1\n3 0 1 2\n"));
   std::string binary = "ply\nformat binary_little_endian 1.0\n" + header + faces + "end_header\n";
-  for (char length = 1; length <= 3; ++length) binary += length + std::string(2 * static_cast<std::size_t>(length) + 12, '\x01');
+  for (char length = 1; length <= 3; ++length)
+    binary += length + std::string(2 * static_cast<std::size_t>(length) + 12, '\x01');
   seeds.push_back(bytesOf(binary + std::string("\x03\0\0\0\0\1\0\0\0\2\0\0\0", 13)));
-  seeds.push_back(bytesOf("FIELDS x _ y z\nSIZE 4 1 4 4\nTYPE F U F F\nCOUNT 1 4 1 1\nWIDTH 2\nHEIGHT 1\nDATA binary\n" +
-                          std::string(32, '\x3f')));
+  seeds.push_back(
+      bytesOf("FIELDS x _ y z\nSIZE 4 1 4 4\nTYPE F U F F\nCOUNT 1 4 1 1\nWIDTH 2\nHEIGHT 1\nDATA binary\n" +
+              std::string(32, '\x3f')));
   seeds.push_back(bytesOf("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3 255 0 0\n"));
   seeds.push_back(bytesOf("# a\no b\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\nf -1 -2 -3\n"));
   seeds.push_back(bytesOf("2\n// a\n1 2 3 0 0 1\n4 5 6 0 1 0\n"));
@@ -90,11 +99,13 @@ std::vector<Bytes> allSeeds() {
 
 class Mutator {
 public:
-  explicit Mutator(unsigned long generator_seed) : generator_(generator_seed) {}
+  explicit Mutator(unsigned long generator_seed)
+      : generator_(generator_seed) {}
 
   Bytes mutated(const std::vector<Bytes>& seeds) {
     Bytes bytes = seeds[below(seeds.size())];
-    for (std::size_t step = 0, steps = 1 + below(4); step < steps; ++step) mutateOnce(bytes, seeds);
+    for (std::size_t step = 0, steps = 1 + below(4); step < steps; ++step)
+      mutateOnce(bytes, seeds);
     return bytes;
   }
 
@@ -104,31 +115,43 @@ private:
 
   void mutateOnce(Bytes& bytes, const std::vector<Bytes>& seeds) {
     switch (below(8)) {
-      case 0:
-        if (!bytes.empty()) bytes[below(bytes.size())] ^= static_cast<std::uint8_t>(1U << below(8));
-        break;
-      case 1:
-        if (!bytes.empty()) bytes[below(bytes.size())] = static_cast<std::uint8_t>(below(256));
-        break;
-      case 2: bytes.resize(below(bytes.size() + 1)); break;
-      case 3: duplicatePart(bytes); break;
-      case 4: removePart(bytes); break;
-      case 5: spliceIn(bytes, seeds[below(seeds.size())]); break;
-      default: changeNumber(bytes); break;
+    case 0:
+      if (!bytes.empty()) bytes[below(bytes.size())] ^= static_cast<std::uint8_t>(1U << below(8));
+      break;
+    case 1:
+      if (!bytes.empty()) bytes[below(bytes.size())] = static_cast<std::uint8_t>(below(256));
+      break;
+    case 2:
+      bytes.resize(below(bytes.size() + 1));
+      break;
+    case 3:
+      duplicatePart(bytes);
+      break;
+    case 4:
+      removePart(bytes);
+      break;
+    case 5:
+      spliceIn(bytes, seeds[below(seeds.size())]);
+      break;
+    default:
+      changeNumber(bytes);
+      break;
     }
   }
 
   void duplicatePart(Bytes& bytes) {
     const std::size_t begin = below(bytes.size());
     const std::size_t length = below(std::min<std::size_t>(64, bytes.size() - begin) + 1);
-    const Bytes part(bytes.begin() + static_cast<std::ptrdiff_t>(begin), bytes.begin() + static_cast<std::ptrdiff_t>(begin + length));
+    const Bytes part(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+                     bytes.begin() + static_cast<std::ptrdiff_t>(begin + length));
     bytes.insert(bytes.begin() + place(bytes), part.begin(), part.end());
   }
 
   void removePart(Bytes& bytes) {
     const std::size_t begin = below(bytes.size());
     const std::size_t length = below(std::min<std::size_t>(32, bytes.size() - begin) + 1);
-    bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(begin), bytes.begin() + static_cast<std::ptrdiff_t>(begin + length));
+    bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+                bytes.begin() + static_cast<std::ptrdiff_t>(begin + length));
   }
 
   void spliceIn(Bytes& bytes, const Bytes& other) {
@@ -139,9 +162,31 @@ private:
 
   /** Replaces a run of digits, in the header most of the time, by a number that breaks careless arithmetic. */
   void changeNumber(Bytes& bytes) {
-    static constexpr const char* kNumbers[] = {"0", "1", "-1", "2", "3", "8", "10", "12", "255", "256", "65536", "1e9", "nan",
-                                               "2147483647", "2147483648", "4294967295", "4294967296", "99999999999999999999",
-                                               "18446744073709551615", "0x10", "1e999", "+1", ".", "-", ""};
+    static constexpr const char* kNumbers[] = {"0",
+                                               "1",
+                                               "-1",
+                                               "2",
+                                               "3",
+                                               "8",
+                                               "10",
+                                               "12",
+                                               "255",
+                                               "256",
+                                               "65536",
+                                               "1e9",
+                                               "nan",
+                                               "2147483647",
+                                               "2147483648",
+                                               "4294967295",
+                                               "4294967296",
+                                               "99999999999999999999",
+                                               "18446744073709551615",
+                                               "0x10",
+                                               "1e999",
+                                               "+1",
+                                               ".",
+                                               "-",
+                                               ""};
     const std::size_t from = below(bytes.size());
     const auto is_digit = [](std::uint8_t c) { return c >= '0' && c <= '9'; };
     auto begin = std::find_if(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.end(), is_digit);
@@ -154,14 +199,16 @@ private:
   std::mt19937_64 generator_;
 };
 
-}  // namespace
+} // namespace
 
 int main(int argument_count, char** arguments) {
   const double seconds = argument_count > 1 ? std::atof(arguments[1]) : 5;
   seed = argument_count > 2 ? std::strtoul(arguments[2], nullptr, 10) : 1;
-  for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE}) std::signal(signal_number, reportCrash);
+  for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE})
+    std::signal(signal_number, reportCrash);
   const std::vector<Bytes> seeds = allSeeds();
-  for (const Bytes& bytes : seeds) LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+  for (const Bytes& bytes : seeds)
+    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   Mutator mutator(seed);
   const auto start = std::chrono::steady_clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };

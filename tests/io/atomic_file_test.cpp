@@ -2,16 +2,13 @@
 // Whatever goes wrong while writing, the target is the old file or the complete new one, and nothing else is left.
 #include "pcl_gpf/io/atomic_file.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 
 #include <functional>
 #include <thread>
 
+#include "io/child_process.h"
 #include "io/test_clouds.h"
 #include "pcl_gpf/io/errors.h"
 #include "pcl_gpf/io/read_cloud.h"
@@ -32,23 +29,13 @@ void expectUnwritable(const std::function<void()>& write, const std::string& par
   }
 }
 
-CloudFile smallCloud() { return cloudOf({{{1, 2, 3}}, {{4, 5, 6}}}); }
+CloudFile smallCloud() {
+  return cloudOf({{{1, 2, 3}}, {{4, 5, 6}}});
+}
 
 mode_t modeOf(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
-}
-
-/** Runs \a body in a child process and returns how it ended. */
-int childStatus(const std::function<void()>& body) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    body();
-    ::_exit(0);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
 }
 
 TEST(AtomicFile, AppearsOnlyWithCommit) {
@@ -108,11 +95,17 @@ TEST(AtomicFile, PlacesThatCannotBeWrittenAreRefusedAtOnce) {
   ::mkfifo((folder / "fifo").c_str(), 0600);
   writeBytes(folder / "file", kOld);
   const std::ptrdiff_t before = folder.entries();
-  const std::pair<std::string, const char*> places[] = {
-      {folder / "missing/a", "a folder that exists"}, {folder / "sub", "a folder"}, {folder / "sub/", "the name of a file"},
-      {"", "the name of a file"},                     {"/", "the name of a file"},  {folder / "dangling", "leads nowhere"},
-      {folder / "loop", "leads nowhere"},             {folder / "fifo", "a device"}, {"/dev/full", "a device"},
-      {folder / "file/a", "Not a directory"},         {folder / std::string(300, 'n'), "too long"}};
+  const std::pair<std::string, const char*> places[] = {{folder / "missing/a", "a folder that exists"},
+                                                        {folder / "sub", "a folder"},
+                                                        {folder / "sub/", "the name of a file"},
+                                                        {"", "the name of a file"},
+                                                        {"/", "the name of a file"},
+                                                        {folder / "dangling", "leads nowhere"},
+                                                        {folder / "loop", "leads nowhere"},
+                                                        {folder / "fifo", "a device"},
+                                                        {"/dev/full", "a device"},
+                                                        {folder / "file/a", "Not a directory"},
+                                                        {folder / std::string(300, 'n'), "too long"}};
   for (const auto& [path, part] : places) {
     SCOPED_TRACE(path);
     for (const bool overwrite : {false, true}) {
@@ -212,67 +205,12 @@ TEST(AtomicFile, ARelativePathMeansTheFolderOfThatMoment) {
   EXPECT_EQ(bytesOf(folder / "relative"), "a");
 }
 
-TEST(AtomicFile, AFileSizeLimitIsAnErrorAndTheOldFileStays) {
-  const TemporaryFolder folder;
-  CloudFile cloud;
-  cloud.width = 100000;
-  for (const char* name : {"x", "y", "z"}) cloud.addField(name, FieldType::Float64);
-  fillRandom(cloud, 1);
-  for (const CloudFormat format : kAllFormats) {
-    SCOPED_TRACE(nameOf(format));
-    const std::string path = folder / ("a" + extensionFor(format));
-    writeBytes(path, kOld);
-    const std::ptrdiff_t before = folder.entries();
-    const int status = childStatus([&] {
-      installSignalCleanup();  // or SIGXFSZ ends the process
-      const rlimit limit{100 << 10, 100 << 10};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-      WriteOptions options;
-      options.format = format;
-      options.overwrite = true;
-      try {
-        writeCloud(cloud, path, options);
-      } catch (const IoError& error) {
-        ::_exit(error.kind() == IoErrorKind::Unwritable ? 5 : 1);
-      }
-    });
-    ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
-    EXPECT_EQ(WEXITSTATUS(status), 5);
-    EXPECT_EQ(bytesOf(path), kOld);
-    EXPECT_EQ(folder.entries(), before);
-  }
-}
-
-TEST(AtomicFile, AFullStandardOutputIsAnError) {
-  const int status = childStatus([] {
-    const int full = ::open("/dev/full", O_WRONLY);
-    ::dup2(full, 1);
-    try {
-      writeCloud(smallCloud(), "-");
-    } catch (const IoError& error) {
-      ::_exit(error.kind() == IoErrorKind::Unwritable ? 5 : 1);
-    }
-  });
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 5);
-}
-
-TEST(AtomicFile, StandardOutputGetsTheSameBytes) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "stdout";
-  childStatus([&] {
-    ::dup2(::open(path.c_str(), O_WRONLY | O_CREAT, 0600), 1);
-    writeCloud(smallCloud(), "-");
-  });
-  writeCloud(smallCloud(), folder / "a.pcd");
-  EXPECT_EQ(bytesOf(path), bytesOf(folder / "a.pcd"));
-}
-
 TEST(AtomicFile, ClosedStandardStreamsNeverBecomeTheOutput) {
   const TemporaryFolder folder;
   const std::string path = folder / "a";
   childStatus([&] {
-    for (int stream = 0; stream < 3; ++stream) ::close(stream);
+    for (int stream = 0; stream < 3; ++stream)
+      ::close(stream);
     AtomicFile file(path, false);
     if (::write(1, "noise", 5) == 5 || ::write(2, "noise", 5) == 5) ::_exit(1);
     file.write("abc", 3);
@@ -287,7 +225,8 @@ TEST(AtomicFile, TheWriterReplacedByTwoGivesOneOfTheTwo) {
   for (int round = 0; round < 20; ++round) {
     const auto write = [&](char letter) {
       AtomicFile file(path, true);
-      for (int part = 0; part < 50; ++part) file.write(std::string(1000, letter).data(), 1000);
+      for (int part = 0; part < 50; ++part)
+        file.write(std::string(1000, letter).data(), 1000);
       file.commit();
     };
     std::thread other(write, 'a');
@@ -299,80 +238,16 @@ TEST(AtomicFile, TheWriterReplacedByTwoGivesOneOfTheTwo) {
   }
 }
 
-/** A child writes a large cloud over and over until \a signal_number ends it after \a microseconds. */
-int killedWriter(const std::string& path, int signal_number, useconds_t microseconds) {
-  int ready[2] = {};
-  if (::pipe(ready) != 0) throw std::runtime_error("no pipe");
-  const pid_t child = ::fork();
-  if (child == 0) {
-    installSignalCleanup();
-    CloudFile cloud;
-    cloud.width = 200000;
-    for (const char* name : {"x", "y", "z"}) cloud.addField(name, FieldType::Float32);
-    WriteOptions options;
-    options.overwrite = true;
-    if (::write(ready[1], "!", 1) != 1) ::_exit(1);
-    for (;;) writeCloud(cloud, path, options);
-  }
-  char mark = 0;
-  const ssize_t count = ::read(ready[0], &mark, 1);
-  ::close(ready[0]);
-  ::close(ready[1]);
-  ::usleep(microseconds);
-  ::kill(child, count == 1 ? signal_number : SIGKILL);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
-}
-
-TEST(AtomicFile, SignalsLeaveTheOldOrACompleteFileAndNothingElse) {
-  const TemporaryFolder folder;
-  std::mt19937 generator(11);
-  const std::string path = folder / "a.pcd";
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
-    for (int round = 0; round < 12; ++round) {
-      const int status = killedWriter(path, signal_number, static_cast<useconds_t>(generator() % 20000));
-      ASSERT_TRUE(WIFSIGNALED(status));
-      EXPECT_EQ(WTERMSIG(status), signal_number);
-      const bool exists = std::filesystem::exists(path);
-      EXPECT_EQ(folder.entries(), exists ? 1 : 0) << "a temporary file is left";
-      EXPECT_TRUE(!exists || readCloud(path).size() == 200000);
-    }
-  }
-}
-
-TEST(AtomicFile, SigkillLeavesTheOldOrACompleteFile) {
-  const TemporaryFolder folder;
-  std::mt19937 generator(12);
-  const std::string path = folder / "a.pcd";
-  for (int round = 0; round < 12; ++round) {
-    const std::ptrdiff_t before = folder.entries();
-    killedWriter(path, SIGKILL, static_cast<useconds_t>(generator() % 20000));
-    EXPECT_TRUE(!std::filesystem::exists(path) || readCloud(path).size() == 200000);
-    EXPECT_LE(folder.entries(), before + 2) << "at most the target and one temporary file are new";
-  }
-}
-
-TEST(AtomicFile, IgnoredSignalsStayIgnored) {
-  const int status = childStatus([] {
-    ::signal(SIGHUP, SIG_IGN);
-    installSignalCleanup();
-    ::raise(SIGHUP);
-    ::_exit(7);
-  });
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 7);
-}
-
 TEST(AtomicFile, NoMoreThanSixtyFourAtATime) {
   const TemporaryFolder folder;
   std::vector<std::unique_ptr<AtomicFile>> files;
-  for (int i = 0; i < 64; ++i) files.push_back(std::make_unique<AtomicFile>(folder / std::to_string(i), false));
+  for (int i = 0; i < 64; ++i)
+    files.push_back(std::make_unique<AtomicFile>(folder / std::to_string(i), false));
   expectUnwritable([&] { AtomicFile file(folder / "one more", false); }, "64");
   files.clear();
   EXPECT_EQ(folder.entries(), 0);
   EXPECT_NO_THROW(AtomicFile(folder / "one more", false));
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

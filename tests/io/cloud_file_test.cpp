@@ -16,7 +16,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 TEST(CloudFile, ValuesAreRoundedToTheTypeAndNeverClamped) {
   struct Row {
     FieldType type;
-    double lowest, highest;  // inclusive, after rounding
+    double lowest, highest; // inclusive, after rounding
   };
   const Row rows[] = {{FieldType::Int8, -128, 127},
                       {FieldType::UInt8, 0, 255},
@@ -59,7 +59,7 @@ TEST(CloudFile, WideIntegersAndRealsHaveTheirOwnLimits) {
   EXPECT_EQ(cloud.value(0, f32), static_cast<double>(0.1F));
   EXPECT_THROW(cloud.setValue(0, f32, 1e39), std::out_of_range);
   EXPECT_THROW(cloud.setValue(0, f32, 0x1.ffffffp127), std::out_of_range);
-  cloud.setValue(0, f32, 0x1.fffffefffffffp127);  // the last double that rounds down to a float
+  cloud.setValue(0, f32, 0x1.fffffefffffffp127); // the last double that rounds down to a float
   EXPECT_EQ(cloud.value(0, f32), std::numeric_limits<float>::max());
   cloud.setValue(0, f32, HUGE_VAL);
   EXPECT_EQ(cloud.value(0, f32), HUGE_VAL);
@@ -77,8 +77,10 @@ TEST(CloudFile, AddedFieldsKeepTheOthersAndStartWithZeros) {
   EXPECT_EQ(cloud.pointStep(), before.pointStep() + 6);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     EXPECT_EQ(std::memcmp(cloud.data.data() + i * cloud.pointStep(), before.data.data() + i * before.pointStep(),
-                          before.pointStep()), 0);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(cloud.value(i, field, k), 0);
+                          before.pointStep()),
+              0);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(cloud.value(i, field, k), 0);
   }
   EXPECT_THROW(cloud.addField("new", FieldType::Int8), std::invalid_argument);
   EXPECT_THROW(cloud.addField("", FieldType::Int8), std::invalid_argument);
@@ -98,15 +100,18 @@ TEST(CloudFile, ColumnsAndCoordinatesAreTheValues) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double value = cloud.value(i, fields[axis]);
       is_finite = is_finite && std::isfinite(value);
-      if (std::isnan(value)) EXPECT_TRUE(std::isnan((*axes[axis])[i]));
-      else EXPECT_EQ((*axes[axis])[i], value);
+      if (std::isnan(value))
+        EXPECT_TRUE(std::isnan((*axes[axis])[i]));
+      else
+        EXPECT_EQ((*axes[axis])[i], value);
     }
     finite += is_finite;
   }
   EXPECT_EQ(cloud.finiteCount(), finite);
   EXPECT_LT(finite, cloud.size());
   std::vector<double> column = cloud.column(cloud.findField("u16"));
-  for (double& value : column) value = 65535 - value;
+  for (double& value : column)
+    value = 65535 - value;
   cloud.setColumn(cloud.findField("u16"), column);
   EXPECT_EQ(cloud.column(cloud.findField("u16")), column);
   column.pop_back();
@@ -127,7 +132,9 @@ TEST(CloudFile, SelectedRowsAreTheRows) {
   EXPECT_EQ(selected.comments, cloud.comments);
   const std::size_t step = cloud.pointStep();
   for (std::size_t i = 0; i < indices.size(); ++i)
-    EXPECT_EQ(std::memcmp(selected.data.data() + i * step, cloud.data.data() + static_cast<std::size_t>(indices[i]) * step, step), 0);
+    EXPECT_EQ(std::memcmp(selected.data.data() + i * step,
+                          cloud.data.data() + static_cast<std::size_t>(indices[i]) * step, step),
+              0);
   EXPECT_EQ(cloud.select({}).size(), 0U);
   EXPECT_EQ(cloud.select({1, 2}).size(), 2U);
   EXPECT_THROW(cloud.select({20}), std::out_of_range);
@@ -147,5 +154,5 @@ TEST(CloudFile, WrongPlacesAreRefused) {
   EXPECT_EQ(CloudFile().size(), 0U);
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

@@ -21,7 +21,8 @@ CloudFile through(const CloudFile& cloud, CloudFormat format) {
 
 std::string namesOf(const CloudFile& cloud) {
   std::string names;
-  for (const CloudField& field : cloud.fields) names += field.name + ':' + nameOf(field.type) + ' ';
+  for (const CloudField& field : cloud.fields)
+    names += field.name + ':' + nameOf(field.type) + ' ';
   return names;
 }
 
@@ -81,10 +82,12 @@ TEST(Conversion, FourChannelsBecomeRgbaAndComeBack) {
 TEST(Conversion, AColourWithTheBitsOfANanSurvivesText) {
   CloudFile cloud = cloudOf({{{1, 2, 3}}});
   cloud.addField("rgb", FieldType::Float32);
-  const std::uint32_t bits = 0xffc80102;  // alpha 255 as new PCL writes it, red 200: a NaN with a payload
+  const std::uint32_t bits = 0xffc80102; // alpha 255 as new PCL writes it, red 200: a NaN with a payload
   std::memcpy(cloud.data.data() + 12, &bits, sizeof bits);
-  for (const CloudFormat format : kPcd) EXPECT_EQ(packedColour(through(cloud, format), 0), bits) << nameOf(format);
-  for (const CloudFormat format : kPly) EXPECT_EQ(through(cloud, format).value(0, 3), 0xc8) << nameOf(format);
+  for (const CloudFormat format : kPcd)
+    EXPECT_EQ(packedColour(through(cloud, format), 0), bits) << nameOf(format);
+  for (const CloudFormat format : kPly)
+    EXPECT_EQ(through(cloud, format).value(0, 3), 0xc8) << nameOf(format);
   EXPECT_EQ(through(cloud, CloudFormat::Xyz).value(0, 3), 0xc8);
 }
 
@@ -92,7 +95,8 @@ TEST(Conversion, OtherColoursAreCarriedAsTheyAre) {
   EXPECT_EQ(namesOf(through(withChannels({"red", "green"}), CloudFormat::PcdBinary)), kXyz + "red:uint8 green:uint8 ");
   EXPECT_EQ(namesOf(through(withChannels({"alpha"}), CloudFormat::PcdBinary)), kXyz + "alpha:uint8 ");
   CloudFile floats = cloudOf({{{1, 2, 3}}});
-  for (const char* name : {"red", "green", "blue"}) floats.addField(name, FieldType::Float32);
+  for (const char* name : {"red", "green", "blue"})
+    floats.addField(name, FieldType::Float32);
   EXPECT_EQ(namesOf(through(floats, CloudFormat::PcdBinary)), namesOf(floats));
   CloudFile taken = withChannels({"red", "green", "blue"});
   taken.addField("rgb", FieldType::Float32);
@@ -101,7 +105,8 @@ TEST(Conversion, OtherColoursAreCarriedAsTheyAre) {
   CloudFile both = cloudOf({{{1, 2, 3}}});
   both.addField("rgb", FieldType::Float32);
   both.addField("rgba", FieldType::UInt32);
-  EXPECT_EQ(namesOf(through(both, CloudFormat::PlyAscii)), kXyz + "rgb:float32 red:uint8 green:uint8 blue:uint8 alpha:uint8 ");
+  EXPECT_EQ(namesOf(through(both, CloudFormat::PlyAscii)),
+            kXyz + "rgb:float32 red:uint8 green:uint8 blue:uint8 alpha:uint8 ");
   EXPECT_EQ(namesOf(through(both, CloudFormat::PcdAscii)), namesOf(both));
   CloudFile wide = cloudOf({{{1, 2, 3}}});
   wide.addField("rgb", FieldType::Float32, 2);
@@ -110,7 +115,8 @@ TEST(Conversion, OtherColoursAreCarriedAsTheyAre) {
 
 TEST(Conversion, NormalsHaveTheNamesOfEachFormat) {
   CloudFile cloud = cloudOf({{{1, 2, 3}}});
-  for (const char* name : {"normal_x", "normal_y", "normal_z", "curvature"}) cloud.addField(name, FieldType::Float32);
+  for (const char* name : {"normal_x", "normal_y", "normal_z", "curvature"})
+    cloud.addField(name, FieldType::Float32);
   cloud.setValue(0, 4, 0.25);
   EXPECT_TRUE(cloud.hasNormals());
   const TemporaryFolder folder;
@@ -124,14 +130,16 @@ TEST(Conversion, NormalsHaveTheNamesOfEachFormat) {
     const CloudFile result = readCloud(path);
     EXPECT_TRUE(result.hasNormals());
     EXPECT_EQ(result.value(0, result.findField("normal_y")), 0.25);
-    const bool has_ply_names = bytesOf(path).find("property float nx\nproperty float ny\nproperty float nz\n") != std::string::npos;
+    const bool has_ply_names =
+        bytesOf(path).find("property float nx\nproperty float ny\nproperty float nz\n") != std::string::npos;
     EXPECT_EQ(has_ply_names, extensionFor(format) == ".ply");
   }
 }
 
 TEST(Conversion, NamesThatAreTakenAreNotTakenTwice) {
   CloudFile cloud = cloudOf({{{1, 2, 3}}});
-  for (const char* name : {"nx", "normal_x", "ny", "_", "__"}) cloud.addField(name, FieldType::Float32);
+  for (const char* name : {"nx", "normal_x", "ny", "_", "__"})
+    cloud.addField(name, FieldType::Float32);
   EXPECT_EQ(through(cloud, CloudFormat::PlyAscii).fields.size(), 8U);
   EXPECT_EQ(through(cloud, CloudFormat::PcdAscii).findField("___"), 6);
   EXPECT_EQ(through(cloud, CloudFormat::Xyz).fields.size(), 8U);
@@ -143,17 +151,22 @@ TEST(Conversion, FormatForPathFollowsExtensionAndFlavour) {
     cloud.format = read_as;
     return formatForPath(path, cloud);
   };
-  for (const CloudFormat same : kPcd) EXPECT_EQ(format(same, "a.PCD"), same);
-  for (const CloudFormat same : kPly) EXPECT_EQ(format(same, "b/a.ply"), same);
-  for (const CloudFormat same : kAllFormats) EXPECT_EQ(format(same, "-"), same);
-  for (const CloudFormat any : kAllFormats) EXPECT_EQ(format(any, "a.xyz"), CloudFormat::Xyz);
+  for (const CloudFormat same : kPcd)
+    EXPECT_EQ(format(same, "a.PCD"), same);
+  for (const CloudFormat same : kPly)
+    EXPECT_EQ(format(same, "b/a.ply"), same);
+  for (const CloudFormat same : kAllFormats)
+    EXPECT_EQ(format(same, "-"), same);
+  for (const CloudFormat any : kAllFormats)
+    EXPECT_EQ(format(any, "a.xyz"), CloudFormat::Xyz);
   EXPECT_EQ(format(CloudFormat::PlyAscii, "a.pcd"), CloudFormat::PcdAscii);
   EXPECT_EQ(format(CloudFormat::Xyz, "a.pcd"), CloudFormat::PcdAscii);
   EXPECT_EQ(format(CloudFormat::PlyBigEndian, "a.pcd"), CloudFormat::PcdBinary);
   EXPECT_EQ(format(CloudFormat::PcdAscii, "a.ply"), CloudFormat::PlyAscii);
   EXPECT_EQ(format(CloudFormat::PcdCompressed, "a.ply"), CloudFormat::PlyLittleEndian);
-  for (const char* path : {"a", "a.csv", "a.las", "a.ply/b", ""}) EXPECT_THROW(formatForPath(path, cloud), IoError) << path;
+  for (const char* path : {"a", "a.csv", "a.las", "a.ply/b", ""})
+    EXPECT_THROW(formatForPath(path, cloud), IoError) << path;
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

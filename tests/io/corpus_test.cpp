@@ -29,11 +29,12 @@ std::vector<ManifestRow> readManifest() {
   std::ifstream manifest(kFolder + "manifest.tsv");
   std::vector<ManifestRow> rows;
   std::string line;
-  std::getline(manifest, line);  // titles
+  std::getline(manifest, line); // titles
   while (std::getline(manifest, line)) {
     std::vector<std::string> columns;
     std::istringstream stream(line);
-    for (std::string column; std::getline(stream, column, '\t');) columns.push_back(column);
+    for (std::string column; std::getline(stream, column, '\t');)
+      columns.push_back(column);
     columns.resize(10);
     ManifestRow row;
     row.file = columns[0];
@@ -42,7 +43,8 @@ std::vector<ManifestRow> readManifest() {
     if (!row.is_error) {
       row.points = std::stoul(columns[2].substr(3));
       row.finite = std::stoul(columns[4]);
-      for (std::size_t axis = 0; axis < 3; ++axis) row.sums[axis] = std::stod(columns[5 + axis]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        row.sums[axis] = std::stod(columns[5 + axis]);
     }
     rows.push_back(row);
   }
@@ -106,5 +108,5 @@ TEST(Corpus, AnAcceptableErrorIsNotNeeded) {
   }
 }
 
-}  // namespace
-}  // namespace pcl_gpf
+} // namespace
+} // namespace pcl_gpf

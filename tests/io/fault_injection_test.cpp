@@ -18,15 +18,16 @@
 namespace {
 
 struct Fault {
-  const char* function = nullptr;  // nullptr: none
-  int calls_until = 0;             // 0: the next one fails
+  const char* function = nullptr; // nullptr: none
+  int calls_until = 0;            // 0: the next one fails
   bool happened = false;
 };
 Fault fault;
 bool writes_are_short = false;
 
 bool failsNow(const char* function) {
-  if (!fault.function || fault.happened || std::strcmp(fault.function, function) != 0 || fault.calls_until-- > 0) return false;
+  if (!fault.function || fault.happened || std::strcmp(fault.function, function) != 0 || fault.calls_until-- > 0)
+    return false;
   fault.happened = true;
   errno = EIO;
   return true;
@@ -43,7 +44,7 @@ void* allocate(std::size_t size) {
   return memory;
 }
 
-}  // namespace
+} // namespace
 
 extern "C" {
 
@@ -77,20 +78,32 @@ PCL_GPF_EXPORT int fchmod(int file, mode_t mode) {
 }
 }
 
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void* operator new(std::size_t size) {
+  return allocate(size);
+}
+void* operator new[](std::size_t size) {
+  return allocate(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 
 namespace pcl_gpf::test {
 namespace {
 
 /** How one run with a fault ended. */
 struct Outcome {
-  bool happened = false;  ///< the fault struck
-  bool is_good = false;   ///< no exception
+  bool happened = false; ///< the fault struck
+  bool is_good = false;  ///< no exception
   bool is_io_error = false;
   bool is_bad_alloc = false;
 };
@@ -122,7 +135,8 @@ TEST(FaultInjection, EveryFailingSystemCallIsAnErrorAndTheOldFileStays) {
   const TemporaryFolder folder;
   CloudFile cloud;
   cloud.width = 300000;
-  for (const char* name : {"x", "y", "z"}) cloud.addField(name, FieldType::Float32);
+  for (const char* name : {"x", "y", "z"})
+    cloud.addField(name, FieldType::Float32);
   const std::string path = folder / "a.pcd";
   WriteOptions options;
   options.overwrite = true;
@@ -185,5 +199,5 @@ TEST(FaultInjection, EveryFailingAllocationIsBadAllocAndNothingIsLeft) {
   }
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

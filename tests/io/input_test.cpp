@@ -22,8 +22,10 @@ void expectUnreadable(const std::string& path, const std::string& part) {
   const auto start = std::chrono::steady_clock::now();
   for (const bool as_mesh : {false, true}) {
     try {
-      if (as_mesh) readMesh(path);
-      else readCloud(path);
+      if (as_mesh)
+        readMesh(path);
+      else
+        readCloud(path);
       ADD_FAILURE() << "no error";
     } catch (const IoError& error) {
       EXPECT_EQ(error.kind(), IoErrorKind::Unreadable);
@@ -41,7 +43,8 @@ TEST(Input, WhatIsNoRegularFileIsRefusedAtOnce) {
   ::mkfifo((folder / "fifo").c_str(), 0600);
   expectUnreadable(folder.path(), "a folder");
   expectUnreadable(folder / "fifo", "pipe");
-  for (const char* device : {"/dev/null", "/dev/zero", "/dev/urandom"}) expectUnreadable(device, "a device");
+  for (const char* device : {"/dev/null", "/dev/zero", "/dev/urandom"})
+    expectUnreadable(device, "a device");
   expectUnreadable(folder / "loop", "symbolic links");
   expectUnreadable(folder / "dangling", "No such file");
   expectUnreadable(folder / "missing.pcd", "No such file");
@@ -74,7 +77,7 @@ int pointsFromStandardInput(const std::string& bytes) {
   if (child == 0) {
     ::close(ends[1]);
     ::dup2(ends[0], 0);
-    ::fcntl(0, F_SETFL, O_NONBLOCK);  // as a shell may leave it
+    ::fcntl(0, F_SETFL, O_NONBLOCK); // as a shell may leave it
     try {
       ::_exit(static_cast<int>(readCloud("-").size()));
     } catch (const IoError& error) {
@@ -130,8 +133,10 @@ TEST(Input, MemoryIsBoundedByTheFile) {
       "FIELDS x y z a\nSIZE 8 8 8 8\nTYPE F F F F\nCOUNT 1 1 1 200000000\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n",
       std::string("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 300000000\nHEIGHT 1\nDATA binary_compressed\n") +
           std::string("\x04\0\0\0\x00\xa4\x93\xd6????", 12),
-      "ply\nformat binary_little_endian 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
-      "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uint float a\nproperty float x\nproperty float y\nproperty float z\n"
+      "ply\nformat binary_little_endian 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\nproperty "
+      "float z\nend_header\n",
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uint float a\nproperty float x\nproperty float "
+      "y\nproperty float z\n"
       "end_header\n4000000000 1 2 3\n"};
   for (const std::string& text : promises) {
     const pid_t child = ::fork();
@@ -157,5 +162,5 @@ TEST(Input, MemoryIsBoundedByTheFile) {
   }
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

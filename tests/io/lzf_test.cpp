@@ -12,7 +12,8 @@ namespace {
 
 std::vector<unsigned char> randomBytes(std::size_t size, unsigned alphabet, std::mt19937& generator) {
   std::vector<unsigned char> bytes(size);
-  for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(generator() % alphabet);
+  for (unsigned char& byte : bytes)
+    byte = static_cast<unsigned char>(generator() % alphabet);
   return bytes;
 }
 
@@ -28,7 +29,8 @@ void expectRoundTrip(const std::vector<unsigned char>& bytes) {
 TEST(Lzf, PackedBytesUnpack) {
   std::mt19937 generator(1);
   for (const unsigned alphabet : {1U, 2U, 3U, 16U, 256U})
-    for (std::size_t size : {0U, 1U, 2U, 3U, 4U, 31U, 32U, 33U, 34U, 64U, 65U, 263U, 264U, 265U, 266U, 267U, 528U, 529U, 8191U, 8192U, 8193U, 8200U, 100000U})
+    for (std::size_t size : {0U,   1U,   2U,   3U,   4U,   31U,  32U,   33U,   34U,   64U,   65U,    263U,
+                             264U, 265U, 266U, 267U, 528U, 529U, 8191U, 8192U, 8193U, 8200U, 100000U})
       expectRoundTrip(randomBytes(size, alphabet, generator));
 }
 
@@ -48,17 +50,70 @@ TEST(Lzf, KnownStreams) {
                                     reinterpret_cast<unsigned char*>(result.data()), size);
     return good ? result : std::string("broken");
   };
-  EXPECT_EQ(unpack(std::string("\x02" "abc", 4), 3), "abc");
-  EXPECT_EQ(unpack(std::string("\x02" "abc\x20\x02", 6), 6), "abcabc");
-  EXPECT_EQ(unpack(std::string("\x00" "a\x40\x00", 4), 5), "aaaaa") << "an overlapping reference";
-  EXPECT_EQ(unpack(std::string("\x00" "a\xe0\x00\x00", 5), 10), "aaaaaaaaaa") << "a long reference";
-  EXPECT_EQ(unpack(std::string("\x02" "abc", 4), 4), "broken") << "too little";
-  EXPECT_EQ(unpack(std::string("\x02" "abc", 4), 2), "broken") << "too much";
-  EXPECT_EQ(unpack(std::string("\x02" "ab", 3), 3), "broken") << "literals cut";
-  EXPECT_EQ(unpack(std::string("\x00" "a\x40", 3), 5), "broken") << "distance cut";
-  EXPECT_EQ(unpack(std::string("\x00" "a\xe0", 3), 10), "broken") << "long length cut";
-  EXPECT_EQ(unpack(std::string("\x00" "a\xe0\x00", 4), 10), "broken") << "long distance cut";
-  EXPECT_EQ(unpack(std::string("\x00" "a\x40\x01", 4), 5), "broken") << "before the start";
+  EXPECT_EQ(unpack(std::string("\x02"
+                               "abc",
+                               4),
+                   3),
+            "abc");
+  EXPECT_EQ(unpack(std::string("\x02"
+                               "abc\x20\x02",
+                               6),
+                   6),
+            "abcabc");
+  EXPECT_EQ(unpack(std::string("\x00"
+                               "a\x40\x00",
+                               4),
+                   5),
+            "aaaaa")
+      << "an overlapping reference";
+  EXPECT_EQ(unpack(std::string("\x00"
+                               "a\xe0\x00\x00",
+                               5),
+                   10),
+            "aaaaaaaaaa")
+      << "a long reference";
+  EXPECT_EQ(unpack(std::string("\x02"
+                               "abc",
+                               4),
+                   4),
+            "broken")
+      << "too little";
+  EXPECT_EQ(unpack(std::string("\x02"
+                               "abc",
+                               4),
+                   2),
+            "broken")
+      << "too much";
+  EXPECT_EQ(unpack(std::string("\x02"
+                               "ab",
+                               3),
+                   3),
+            "broken")
+      << "literals cut";
+  EXPECT_EQ(unpack(std::string("\x00"
+                               "a\x40",
+                               3),
+                   5),
+            "broken")
+      << "distance cut";
+  EXPECT_EQ(unpack(std::string("\x00"
+                               "a\xe0",
+                               3),
+                   10),
+            "broken")
+      << "long length cut";
+  EXPECT_EQ(unpack(std::string("\x00"
+                               "a\xe0\x00",
+                               4),
+                   10),
+            "broken")
+      << "long distance cut";
+  EXPECT_EQ(unpack(std::string("\x00"
+                               "a\x40\x01",
+                               4),
+                   5),
+            "broken")
+      << "before the start";
   EXPECT_EQ(unpack("", 0), "");
 }
 
@@ -77,5 +132,5 @@ TEST(Lzf, BrokenStreamsAreRefusedOrGiveTheSize) {
   EXPECT_GT(refused, 1000U);
 }
 
-}  // namespace
-}  // namespace pcl_gpf
+} // namespace
+} // namespace pcl_gpf

@@ -28,7 +28,8 @@ CloudFile colouredCloud(std::uint32_t width, std::uint32_t height) {
     cloud.addField(name, FieldType::Float32);
   std::mt19937 generator(1);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    for (const int field : {0, 1, 2, 4, 5, 6, 7}) cloud.setValue(i, field, static_cast<double>(generator()) * 1e-9 - 2);
+    for (const int field : {0, 1, 2, 4, 5, 6, 7})
+      cloud.setValue(i, field, static_cast<double>(generator()) * 1e-9 - 2);
     const std::uint32_t colour = generator() & 0xffffff;
     std::memcpy(cloud.data.data() + i * cloud.pointStep() + 12, &colour, sizeof colour);
     if (height > 1 && i % 5 == 0) cloud.setValue(i, 0, std::numeric_limits<double>::quiet_NaN());
@@ -40,12 +41,15 @@ void expectSamePoints(const CloudFile& ours, const pcl::PointCloud<Point>& their
   ASSERT_EQ(theirs.size(), ours.size());
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const Point& point = theirs[i];
-    const float values[7] = {point.x, point.y, point.z, point.normal_x, point.normal_y, point.normal_z, point.curvature};
+    const float values[7] = {point.x,        point.y,        point.z,        point.normal_x,
+                             point.normal_y, point.normal_z, point.curvature};
     const int fields[7] = {0, 1, 2, 4, 5, 6, 7};
     for (std::size_t v = 0; v < 7; ++v) {
       const double expected = ours.value(i, fields[v]);
-      if (std::isnan(expected)) ASSERT_TRUE(std::isnan(values[v]));
-      else ASSERT_EQ(values[v], expected) << "point " << i << " field " << fields[v];
+      if (std::isnan(expected))
+        ASSERT_TRUE(std::isnan(values[v]));
+      else
+        ASSERT_EQ(values[v], expected) << "point " << i << " field " << fields[v];
     }
     std::uint32_t colour = 0;
     std::memcpy(&colour, ours.data.data() + i * ours.pointStep() + 12, sizeof colour);
@@ -121,7 +125,7 @@ TEST(PclCrossCheck, WeReadWhatPclWrites) {
     EXPECT_EQ(ours.finiteCount(), expected.finiteCount());
     pcl::PointCloud<Point> converted;
     pcl::fromPCLPointCloud2(toPCL(ours), converted);
-    const bool text_of_ply = std::string(name) == "ascii.ply";  // PCL writes only 8 digits there
+    const bool text_of_ply = std::string(name) == "ascii.ply"; // PCL writes only 8 digits there
     if (!text_of_ply) expectSamePoints(expected, converted);
     for (std::size_t k = 0; k < 7; ++k) {
       const double viewpoint[7] = {1.5, -2, 3, 0.5, 0.5, -0.5, 0.5};
@@ -187,5 +191,5 @@ TEST(PclCrossCheck, InconsistentPclCloudsAreRefused) {
   EXPECT_THROW(fromPCL(broken), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

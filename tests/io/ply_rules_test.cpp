@@ -9,7 +9,8 @@ namespace {
 
 const std::string kVertex = "element vertex 2\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kAscii = "ply\nformat ascii 1.0\n" + kVertex + "end_header\n1 2 3\n4 5 6\n";
-const std::string kBinary = "ply\nformat binary_little_endian 1.0\n" + kVertex + "end_header\n" + std::string(24, '\x3f');
+const std::string kBinary =
+    "ply\nformat binary_little_endian 1.0\n" + kVertex + "end_header\n" + std::string(24, '\x3f');
 
 /** A text file with more in the header and the body. */
 std::string with(const std::string& header, const std::string& rows) {
@@ -18,17 +19,19 @@ std::string with(const std::string& header, const std::string& rows) {
 
 TEST(PlyRules, Header) {
   std::string many_properties = kVertex;
-  for (int i = 3; i < 1001; ++i) many_properties += "property uchar p" + std::to_string(i) + "\n";
+  for (int i = 3; i < 1001; ++i)
+    many_properties += "property uchar p" + std::to_string(i) + "\n";
   std::string many_elements = kVertex;
-  for (int i = 1; i < 10001; ++i) many_elements += "element e" + std::to_string(i) + " 0\n";
+  for (int i = 1; i < 10001; ++i)
+    many_elements += "element e" + std::to_string(i) + " 0\n";
   const RuleCase cases[] = {
       {"good", kAscii, 2, ""},
       {"format twice", changed(kAscii, "element", "format ascii 1.0\nelement"), kRefused, "a second one"},
       {"format unknown", changed(kAscii, "ascii", "text"), kRefused, "'text'"},
       {"format without version", changed(kAscii, " 1.0", ""), kRefused, "line 2"},
       {"version 1.1", changed(kAscii, "1.0", "1.1"), kRefused, "'1.1'"},
-      {"format after the elements", changed(changed(kAscii, "format ascii 1.0\n", ""), "end_header", "format ascii 1.0\nend_header"),
-       2, ""},
+      {"format after the elements",
+       changed(changed(kAscii, "format ascii 1.0\n", ""), "end_header", "format ascii 1.0\nend_header"), 2, ""},
       {"unknown keyword", changed(kAscii, "element", "vertices 2\nelement"), kRefused, "'vertices 2'"},
       {"end_header with a tail", changed(kAscii, "end_header", "end_header now"), kRefused, "end_header now"},
       {"no end_header", changed(kAscii, "end_header\n", ""), kRefused, "line 7"},
@@ -43,7 +46,8 @@ TEST(PlyRules, Header) {
       {"64-bit integer, which PLY lacks", changed(kAscii, "float x", "int64 x"), kRefused, "'int64'"},
       {"property without a name", changed(kAscii, "float x", "float"), kRefused, "line 4"},
       {"property with two names", changed(kAscii, "float x", "float x x"), kRefused, "line 4"},
-      {"list with a float length", changed(kAscii, "float z", "float z\nproperty list float int a"), kRefused, "'float'"},
+      {"list with a float length", changed(kAscii, "float z", "float z\nproperty list float int a"), kRefused,
+       "'float'"},
       {"list without a name", changed(kAscii, "float z", "float z\nproperty list uchar int"), kRefused, "line 7"},
       {"x is a list", changed(kAscii, "float x", "list uchar float x"), kRefused, ""},
       {"no y", with("element vertex 1\nproperty float x\nproperty float z\n", "1 2\n"), kRefused, "field y"},
@@ -51,14 +55,15 @@ TEST(PlyRules, Header) {
       {"NUL in the header", changed(kAscii, "float x", std::string("float\0x", 7)), kRefused, "NUL"},
       {"1001 properties", with(many_properties, ""), kRefused, "1000"},
       {"10001 elements", with(many_elements, ""), kRefused, "10000"},
-      {"header beyond 1 MiB", changed(kAscii, "element", "comment " + std::string(1 << 20, 'c') + "\nelement"), kRefused,
-       "1 MiB"},
+      {"header beyond 1 MiB", changed(kAscii, "element", "comment " + std::string(1 << 20, 'c') + "\nelement"),
+       kRefused, "1 MiB"},
       {"CR LF", withLineEnds(kAscii, "\r\n"), 2, ""},
       {"CR alone", withLineEnds(kAscii, "\r"), 2, "CR"},
       {"byte-order mark", "\xef\xbb\xbf" + kAscii, 2, "byte-order"},
       {"PLY in capitals", changed(kAscii, "ply", "PLY"), kRefused, "expected a PCD or PLY header"},
       {"ply with a tail", changed(kAscii, "ply", "plyx"), kRefused, "expected a PCD or PLY header"},
-      {"comments and obj_info", changed(kAscii, "element", "comment\ncomment a\nobj_info\nobj_info num_cols\nelement"), 2, ""}};
+      {"comments and obj_info", changed(kAscii, "element", "comment\ncomment a\nobj_info\nobj_info num_cols\nelement"),
+       2, ""}};
   for (const RuleCase& rule : cases)
     expectRule(rule, "a.ply");
 }
@@ -78,9 +83,10 @@ TEST(PlyRules, Promises) {
        changed(changed(kBinary, "vertex 2", "vertex 1"), "end_header", "element more 13\nproperty uchar a\nend_header"),
        kRefused, "13 rows"},
       {"sum of the elements fits exactly",
-       changed(changed(kBinary, "vertex 2", "vertex 1"), "end_header", "element more 12\nproperty uchar a\nend_header"), 1,
-       ""}};
-  for (const RuleCase& rule : cases) expectRule(rule, "a.ply");
+       changed(changed(kBinary, "vertex 2", "vertex 1"), "end_header", "element more 12\nproperty uchar a\nend_header"),
+       1, ""}};
+  for (const RuleCase& rule : cases)
+    expectRule(rule, "a.ply");
 }
 
 TEST(PlyRules, Rows) {
@@ -104,13 +110,15 @@ TEST(PlyRules, Rows) {
       {"word in a face", with(face, points + "3 0 1 b\n"), kRefused, "'b'"},
       {"element before vertex", with("element a 1\nproperty int b\n" + kVertex, "7\n" + points), 2, ""},
       {"camera of another kind", with(kVertex + "element camera 1\nproperty float view_px\n", points + "1\n"), 2, ""},
-      {"camera of zeros", with(kVertex + "element camera 1\nproperty float view_px\nproperty float x_axisx\n", points + "0 0\n"),
-       2, ""}};
-  for (const RuleCase& rule : cases) expectRule(rule, "a.ply");
+      {"camera of zeros",
+       with(kVertex + "element camera 1\nproperty float view_px\nproperty float x_axisx\n", points + "0 0\n"), 2, ""}};
+  for (const RuleCase& rule : cases)
+    expectRule(rule, "a.ply");
 }
 
 TEST(PlyRules, ListsOfVertices) {
-  const std::string list = "element vertex 2\nproperty list uchar short a\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string list =
+      "element vertex 2\nproperty list uchar short a\nproperty float x\nproperty float y\nproperty float z\n";
   const CloudFile constant = readText(with(list, "2 7 8 1 2 3\n2 9 10 4 5 6\n"), "a.ply");
   ASSERT_EQ(constant.findField("a"), 0);
   EXPECT_EQ(constant.fields[0].count, 2U);
@@ -131,7 +139,11 @@ TEST(PlyRules, ListsOfVertices) {
   EXPECT_EQ(binary.value(1, 0), 'B');
   const std::string varying_rows = std::string("\0\1A", 3) + row + std::string("\0\2BC", 4) + row;
   EXPECT_EQ(readText(binary_list + "end_header\n" + varying_rows, "a.ply").pointStep(), 12U);
-  const std::string long_list = std::string("\0\1A", 3) + row + std::string("\xff\xff""C", 3) + row;
+  const std::string long_list = std::string("\0\1A", 3) + row +
+                                std::string("\xff\xff"
+                                            "C",
+                                            3) +
+                                row;
   EXPECT_THROW(readText(binary_list + "end_header\n" + long_list, "a.ply"), IoError);
 }
 
@@ -150,12 +162,14 @@ TEST(PlyRules, BytesOrderAndTypesAreTheFilesOwn) {
 
 TEST(PlyRules, ObjInfoOrganisesOnlyWhatItFits) {
   const auto grid = [](const char* columns, const char* rows) {
-    return readText(changed(kAscii, "element", std::string("obj_info num_cols ") + columns + "\nobj_info num_rows " + rows + "\nelement"),
+    return readText(changed(kAscii, "element",
+                            std::string("obj_info num_cols ") + columns + "\nobj_info num_rows " + rows + "\nelement"),
                     "a.ply");
   };
   EXPECT_EQ(grid("1", "2").height, 2U);
   EXPECT_TRUE(grid("1", "2").comments.empty());
-  for (const auto& [columns, rows] : {std::pair{"1", "1"}, {"0", "0"}, {"4294967295", "4294967295"}, {"-1", "-2"}, {"2", "0"}}) {
+  for (const auto& [columns, rows] :
+       {std::pair{"1", "1"}, {"0", "0"}, {"4294967295", "4294967295"}, {"-1", "-2"}, {"2", "0"}}) {
     const CloudFile cloud = grid(columns, rows);
     EXPECT_EQ(cloud.width, 2U);
     EXPECT_EQ(cloud.height, 1U);
@@ -175,12 +189,13 @@ TEST(PlyRules, TheCameraOfPclGivesTheViewpoint) {
   EXPECT_EQ(quarter.size(), 2U);
   const double half = std::sqrt(0.5);
   const std::array<double, 7> expected{7, 8, 9, half, 0, 0, half};
-  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(quarter.viewpoint[i], expected[i], 1e-12) << i;
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_NEAR(quarter.viewpoint[i], expected[i], 1e-12) << i;
   EXPECT_EQ(readText(with(camera, points + "0 0 0 1 0 0 0 -1 0 0 0 -1 2 1\n"), "a.ply").viewpoint[4], 1);
   EXPECT_EQ(readText(with(camera, points + "0 0 0 -1 0 0 0 1 0 0 0 -1 2 1\n"), "a.ply").viewpoint[5], 1);
   EXPECT_EQ(readText(with(camera, points + "0 0 0 -1 0 0 0 -1 0 0 0 1 2 1\n"), "a.ply").viewpoint[6], 1);
   EXPECT_EQ(readText(with(camera, points + "7 8 9 0 0 0 0 0 0 0 0 0 2 1\n"), "a.ply").viewpoint[0], 0) << "no rotation";
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

@@ -16,8 +16,8 @@ constexpr int kRefused = -1;
 struct RuleCase {
   const char* what;
   std::string bytes;
-  int points;            ///< kRefused, or the number of points that must come out
-  const char* part;      ///< of the error's message, or of one warning ("" for no warning at all)
+  int points;       ///< kRefused, or the number of points that must come out
+  const char* part; ///< of the error's message, or of one warning ("" for no warning at all)
 };
 
 inline CloudFile readText(const std::string& bytes, const std::string& name) {
@@ -32,9 +32,12 @@ inline void expectRule(const RuleCase& rule, const std::string& name) {
     EXPECT_EQ(cloud.size(), static_cast<std::size_t>(rule.points));
     EXPECT_EQ(cloud.data.size(), cloud.size() * cloud.pointStep());
     std::string warnings;
-    for (const std::string& warning : cloud.warnings) warnings += warning + "; ";
-    if (*rule.part == '\0') EXPECT_EQ(warnings, "");
-    else EXPECT_NE(warnings.find(rule.part), std::string::npos) << warnings;
+    for (const std::string& warning : cloud.warnings)
+      warnings += warning + "; ";
+    if (*rule.part == '\0')
+      EXPECT_EQ(warnings, "");
+    else
+      EXPECT_NE(warnings.find(rule.part), std::string::npos) << warnings;
   } catch (const IoError& error) {
     const std::string message = error.what();
     EXPECT_EQ(rule.points, kRefused) << message;
@@ -53,8 +56,9 @@ inline std::string changed(std::string text, const std::string& old, const std::
 /** Every LF becomes \a line_end. */
 inline std::string withLineEnds(const std::string& text, const std::string& line_end) {
   std::string result;
-  for (const char c : text) result += c == '\n' ? line_end : std::string(1, c);
+  for (const char c : text)
+    result += c == '\n' ? line_end : std::string(1, c);
   return result;
 }
 
-}  // namespace pcl_gpf::test
+} // namespace pcl_gpf::test

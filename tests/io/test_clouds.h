@@ -22,8 +22,9 @@ namespace pcl_gpf::test {
 constexpr CloudFormat kAllFormats[] = {CloudFormat::PcdAscii, CloudFormat::PcdBinary,       CloudFormat::PcdCompressed,
                                        CloudFormat::PlyAscii, CloudFormat::PlyLittleEndian, CloudFormat::PlyBigEndian,
                                        CloudFormat::Xyz};
-constexpr FieldType kAllTypes[] = {FieldType::Int8,   FieldType::UInt8, FieldType::Int16,  FieldType::UInt16,  FieldType::Int32,
-                                   FieldType::UInt32, FieldType::Int64, FieldType::UInt64, FieldType::Float32, FieldType::Float64};
+constexpr FieldType kAllTypes[] = {FieldType::Int8,    FieldType::UInt8,  FieldType::Int16, FieldType::UInt16,
+                                   FieldType::Int32,   FieldType::UInt32, FieldType::Int64, FieldType::UInt64,
+                                   FieldType::Float32, FieldType::Float64};
 
 /** A folder that is removed, with all in it, at the end of the test. */
 class TemporaryFolder {
@@ -69,16 +70,19 @@ inline std::string extensionFor(CloudFormat format) {
 inline CloudFile cloudOf(const std::vector<std::array<double, 3>>& points) {
   CloudFile cloud;
   cloud.width = static_cast<std::uint32_t>(points.size());
-  for (const char* name : {"x", "y", "z"}) cloud.addField(name, FieldType::Float32);
+  for (const char* name : {"x", "y", "z"})
+    cloud.addField(name, FieldType::Float32);
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) cloud.setCoordinate(i, axis, points[i][static_cast<std::size_t>(axis)]);
+    for (int axis = 0; axis < 3; ++axis)
+      cloud.setCoordinate(i, axis, points[i][static_cast<std::size_t>(axis)]);
   return cloud;
 }
 
 /** Random bits in every byte, except that NaNs are made the one that text can hold. */
 inline void fillRandom(CloudFile& cloud, std::uint32_t seed) {
   std::mt19937 generator(seed);
-  for (unsigned char& byte : cloud.data) byte = static_cast<unsigned char>(generator() >> 24);
+  for (unsigned char& byte : cloud.data)
+    byte = static_cast<unsigned char>(generator() >> 24);
   const float float_nan = std::numeric_limits<float>::quiet_NaN();
   const double double_nan = std::numeric_limits<double>::quiet_NaN();
   for (const CloudField& field : cloud.fields) {
@@ -87,8 +91,10 @@ inline void fillRandom(CloudFile& cloud, std::uint32_t seed) {
         unsigned char* element = cloud.data.data() + i * cloud.pointStep() + field.offset + k * sizeOf(field.type);
         const double value = cloud.value(i, cloud.findField(field.name), k);
         if (value == value) continue;
-        if (field.type == FieldType::Float32) std::memcpy(element, &float_nan, sizeof float_nan);
-        else std::memcpy(element, &double_nan, sizeof double_nan);
+        if (field.type == FieldType::Float32)
+          std::memcpy(element, &float_nan, sizeof float_nan);
+        else
+          std::memcpy(element, &double_nan, sizeof double_nan);
       }
     }
   }
@@ -112,7 +118,8 @@ inline CloudFile mixedCloud(std::uint32_t width, std::uint32_t height, std::uint
   cloud.addField("offset", FieldType::Int64, 2);
   cloud.addField("many", FieldType::UInt8, 300);
   fillRandom(cloud, seed);
-  for (std::size_t i = 0; i < cloud.size(); i += 7) cloud.setValue(i, 1, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < cloud.size(); i += 7)
+    cloud.setValue(i, 1, std::numeric_limits<double>::quiet_NaN());
   cloud.viewpoint = {1e-300, -500000.123456789, 0.1, 0.5, -0.5, 0.5, -0.5};
   cloud.comments = {"made by a test", "with two comments"};
   return cloud;
@@ -134,4 +141,4 @@ inline void limitWideIntegers(CloudFile& cloud) {
   }
 }
 
-}  // namespace pcl_gpf::test
+} // namespace pcl_gpf::test

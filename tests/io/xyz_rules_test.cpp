@@ -7,40 +7,45 @@ namespace {
 
 TEST(XyzRules, Rows) {
   std::string wide;
-  for (int i = 0; i < 1001; ++i) wide += "1 ";
-  const RuleCase cases[] = {
-      {"three columns", "1 2 3\n4 5 6\n", 2, ""},
-      {"no line end at the end", "1 2 3\n4 5 6", 2, ""},
-      {"tabs, blanks, blank lines, CR LF", "\r\n 1\t2  3 \r\n\r\n4 5 6\r\n", 2, ""},
-      {"CR alone", "1 2 3\r4 5 6\r", 2, "CR"},
-      {"mixed line ends", "1 2 3\r\n4 5 6\n", 2, "some lines end"},
-      {"byte-order mark", "\xef\xbb\xbf" "1 2 3\n", 1, "byte-order"},
-      {"comments", "# a\n//X Y Z\n1 2 3\n# in between\n4 5 6\n", 2, ""},
-      {"nan and inf", "nan nan nan\n1 inf 2\n", 2, ""},
-      {"number of points first", "2\n1 2 3\n4 5 6\n", 2, ""},
-      {"number of points wrong", "3\n1 2 3\n4 5 6\n", kRefused, "3 points"},
-      {"number of points twice", "2\n2\n1 2 3\n", kRefused, "three columns"},
-      {"nothing but a comment", "# a\n", kRefused, "no row"},
-      {"blanks only", " \n \n", kRefused, "no row"},
-      {"two columns", "1 2\n3 4\n", kRefused, "three columns"},
-      {"a word alone", "hello\n", kRefused, "'hello'"},
-      {"prose", "The quick brown fox\n", kRefused, "'The'"},
-      {"titles in the first row", "x y z\n1 2 3\n", kRefused, "'x'"},
-      {"shorter row", "1 2 3\n4 5\n", kRefused, "line 2"},
-      {"longer row", "1 2 3\n4 5 6 7\n", kRefused, "line 2"},
-      {"word", "1 2 3\n4 5 six\n", kRefused, "'six'"},
-      {"commas between", "1,2,3\n", kRefused, "commas"},
-      {"decimal commas", "1,5 2,5 3,5\n", kRefused, "commas"},
-      {"semicolons", "1;2;3\n", kRefused, "'1;2;3'"},
-      {"NUL", std::string("1 2 3\n4 5 \0\n", 12), kRefused, "line 2"},
-      {"hexadecimal", "1 2 0x3\n", kRefused, "'0x3'"},
-      {"1001 columns", wide + "\n", kRefused, "1000"}};
-  for (const RuleCase& rule : cases) expectRule(rule, "a.xyz");
+  for (int i = 0; i < 1001; ++i)
+    wide += "1 ";
+  const RuleCase cases[] = {{"three columns", "1 2 3\n4 5 6\n", 2, ""},
+                            {"no line end at the end", "1 2 3\n4 5 6", 2, ""},
+                            {"tabs, blanks, blank lines, CR LF", "\r\n 1\t2  3 \r\n\r\n4 5 6\r\n", 2, ""},
+                            {"CR alone", "1 2 3\r4 5 6\r", 2, "CR"},
+                            {"mixed line ends", "1 2 3\r\n4 5 6\n", 2, "some lines end"},
+                            {"byte-order mark",
+                             "\xef\xbb\xbf"
+                             "1 2 3\n",
+                             1, "byte-order"},
+                            {"comments", "# a\n//X Y Z\n1 2 3\n# in between\n4 5 6\n", 2, ""},
+                            {"nan and inf", "nan nan nan\n1 inf 2\n", 2, ""},
+                            {"number of points first", "2\n1 2 3\n4 5 6\n", 2, ""},
+                            {"number of points wrong", "3\n1 2 3\n4 5 6\n", kRefused, "3 points"},
+                            {"number of points twice", "2\n2\n1 2 3\n", kRefused, "three columns"},
+                            {"nothing but a comment", "# a\n", kRefused, "no row"},
+                            {"blanks only", " \n \n", kRefused, "no row"},
+                            {"two columns", "1 2\n3 4\n", kRefused, "three columns"},
+                            {"a word alone", "hello\n", kRefused, "'hello'"},
+                            {"prose", "The quick brown fox\n", kRefused, "'The'"},
+                            {"titles in the first row", "x y z\n1 2 3\n", kRefused, "'x'"},
+                            {"shorter row", "1 2 3\n4 5\n", kRefused, "line 2"},
+                            {"longer row", "1 2 3\n4 5 6 7\n", kRefused, "line 2"},
+                            {"word", "1 2 3\n4 5 six\n", kRefused, "'six'"},
+                            {"commas between", "1,2,3\n", kRefused, "commas"},
+                            {"decimal commas", "1,5 2,5 3,5\n", kRefused, "commas"},
+                            {"semicolons", "1;2;3\n", kRefused, "'1;2;3'"},
+                            {"NUL", std::string("1 2 3\n4 5 \0\n", 12), kRefused, "line 2"},
+                            {"hexadecimal", "1 2 0x3\n", kRefused, "'0x3'"},
+                            {"1001 columns", wide + "\n", kRefused, "1000"}};
+  for (const RuleCase& rule : cases)
+    expectRule(rule, "a.xyz");
 }
 
 std::string namesOf(const CloudFile& cloud) {
   std::string names;
-  for (const CloudField& field : cloud.fields) names += field.name + ' ';
+  for (const CloudField& field : cloud.fields)
+    names += field.name + ' ';
   return names;
 }
 
@@ -64,8 +69,10 @@ TEST(XyzRules, ValuesAreDoubles) {
 }
 
 TEST(FormatChoice, ContentDecidesAndTheNameOnlyAllowsXyz) {
-  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
-  const std::string pcd = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n";
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+                          "z\nend_header\n1 2 3\n";
+  const std::string pcd =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n";
   for (const char* name : {"a.pcd", "a.ply", "a.xyz", "a", "a.jpg", "a.PLY"}) {
     EXPECT_EQ(readText(ply, name).format, CloudFormat::PlyAscii) << name;
     EXPECT_EQ(readText(pcd, name).format, CloudFormat::PcdAscii) << name;
@@ -81,5 +88,5 @@ TEST(FormatChoice, ContentDecidesAndTheNameOnlyAllowsXyz) {
   EXPECT_THROW(readText("\xef\xbb\xbf", "a.pcd"), IoError);
 }
 
-}  // namespace
-}  // namespace pcl_gpf::test
+} // namespace
+} // namespace pcl_gpf::test

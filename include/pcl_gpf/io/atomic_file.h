@@ -18,7 +18,8 @@ PCL_GPF_EXPORT void checkWritable(const std::string& path, bool overwrite);
 /** \brief A file that appears under its name only when it is complete and on the disk.
  *
  * Bytes go to a temporary file (`.pcl_gpf-<random>.tmp`) in the target's folder; commit() syncs it, renames it over the
- * target and syncs the folder. Without commit(), or on any error, the destructor removes it and the target is untouched.
+ * target and syncs the folder. Without commit(), or on any error, the destructor removes it and the target is
+ * untouched.
  * - A new file's mode follows umask; a replaced file's mode is kept (its owner where the system allows).
  * - A target that is a symbolic link stays a link: the file that it points to is replaced. A dangling link is refused.
  * - With overwrite false the rename refuses a file that appeared in between (where the system supports that).
@@ -42,8 +43,8 @@ private:
   void discard() noexcept;
   [[noreturn]] void fail(const std::string& step, int error) const;
 
-  std::string path_;      // as the caller named it, for messages
-  std::string target_;    // links resolved, absolute
+  std::string path_;   // as the caller named it, for messages
+  std::string target_; // links resolved, absolute
   std::string folder_;
   std::string temporary_;
   bool overwrite_;
@@ -57,4 +58,4 @@ private:
  */
 PCL_GPF_EXPORT void installSignalCleanup();
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -46,14 +46,14 @@ struct CloudCoordinates {
  */
 class PCL_GPF_EXPORT CloudFile {
 public:
-  std::uint32_t width = 0;   ///< points per row of an organised cloud, else all points
-  std::uint32_t height = 1;  ///< rows of an organised cloud, else 1
+  std::uint32_t width = 0;  ///< points per row of an organised cloud, else all points
+  std::uint32_t height = 1; ///< rows of an organised cloud, else 1
   std::vector<CloudField> fields;
-  std::vector<unsigned char> data;  ///< size() rows of pointStep() bytes, this machine's byte order
-  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz, then the rotation qw qx qy qz
-  std::vector<std::string> comments;  ///< of the header, without their marks
-  std::vector<std::string> warnings;  ///< what was odd but readable, one sentence each
-  CloudFormat format = CloudFormat::PcdBinary;  ///< what it was read as
+  std::vector<unsigned char> data;                      ///< size() rows of pointStep() bytes, this machine's byte order
+  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0}; ///< tx ty tz, then the rotation qw qx qy qz
+  std::vector<std::string> comments;                    ///< of the header, without their marks
+  std::vector<std::string> warnings;                    ///< what was odd but readable, one sentence each
+  CloudFormat format = CloudFormat::PcdBinary;          ///< what it was read as
 
   std::size_t size() const noexcept { return static_cast<std::size_t>(width) * height; }
   bool isOrganized() const noexcept { return height > 1; }
@@ -93,7 +93,8 @@ public:
   template <typename Index = std::size_t>
   CloudFile select(const std::vector<Index>& indices) const {
     CloudFile result = withoutPoints(indices.size());
-    for (std::size_t i = 0; i < indices.size(); ++i) copyRow(static_cast<std::size_t>(indices[i]), result, i);
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      copyRow(static_cast<std::size_t>(indices[i]), result, i);
     return result;
   }
 
@@ -103,4 +104,4 @@ private:
   const unsigned char* element(std::size_t point, int field, std::size_t element) const;
 };
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

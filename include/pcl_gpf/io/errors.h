@@ -40,4 +40,4 @@ private:
 /** \brief Text fit for a message: control characters as \\xNN, at most \a limit bytes, then "...". */
 PCL_GPF_EXPORT std::string printable(const std::string& text, std::size_t limit = 60);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -12,8 +12,8 @@ namespace pcl_gpf {
 
 /** \brief Triangles over shared vertices. */
 struct TriangleMesh {
-  std::vector<double> vertices;          ///< x y z per vertex, finite
-  std::vector<std::uint32_t> triangles;  ///< 3 vertex numbers per triangle, each below vertexCount()
+  std::vector<double> vertices;         ///< x y z per vertex, finite
+  std::vector<std::uint32_t> triangles; ///< 3 vertex numbers per triangle, each below vertexCount()
 
   std::size_t vertexCount() const noexcept { return vertices.size() / 3; }
   std::size_t triangleCount() const noexcept { return triangles.size() / 3; }
@@ -32,4 +32,4 @@ PCL_GPF_EXPORT TriangleMesh readMesh(const std::string& path);
 /** \brief The same from memory. \param name stands for the path in messages, and its extension allows OBJ. */
 PCL_GPF_EXPORT TriangleMesh readMeshBuffer(const unsigned char* data, std::size_t size, const std::string& name);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

@@ -9,7 +9,8 @@
 
 namespace pcl_gpf {
 
-/** \brief All points and fields as PCL's untyped cloud, in PCD names: red green blue [alpha] bytes become `rgb` [`rgba`].
+/** \brief All points and fields as PCL's untyped cloud, in PCD names: red green blue [alpha] bytes become `rgb`
+ * [`rgba`].
  *
  * is_dense is counted. The header is empty, and PCL keeps a viewpoint elsewhere (CloudFile::viewpoint).
  * \throws std::length_error when a row or the cloud passes PCL's 32-bit sizes
@@ -21,4 +22,4 @@ PCL_GPF_EXPORT pcl::PCLPointCloud2 toPCL(const CloudFile& cloud);
  */
 PCL_GPF_EXPORT CloudFile fromPCL(const pcl::PCLPointCloud2& cloud);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

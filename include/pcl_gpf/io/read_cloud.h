@@ -34,4 +34,4 @@ PCL_GPF_EXPORT CloudFile readCloud(const std::string& path);
 /** \brief The same from memory. \param name stands for the path in messages, and its extension allows XYZ text. */
 PCL_GPF_EXPORT CloudFile readCloudBuffer(const unsigned char* data, std::size_t size, const std::string& name);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf

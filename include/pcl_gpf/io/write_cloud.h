@@ -5,7 +5,7 @@
 #include <string>
 
 #include "pcl_gpf/common/export.h"
-#include "pcl_gpf/io/atomic_file.h"  // checkWritable()
+#include "pcl_gpf/io/atomic_file.h" // checkWritable()
 #include "pcl_gpf/io/cloud_file.h"
 
 namespace pcl_gpf {
@@ -17,7 +17,8 @@ struct WriteOptions {
   bool overwrite = false;
 };
 
-/** \brief Writes all points and fields, atomically (see AtomicFile): the target is the old file or the complete new one.
+/** \brief Writes all points and fields, atomically (see AtomicFile): the target is the old file or the complete new
+ * one.
  *
  * Text holds the shortest digits that read back to the same bits. Between PCD and PLY, normals change their names and
  * 8-bit colours their packing: red green blue [alpha] become PCL's `rgb` [`rgba`], and back.
@@ -44,4 +45,4 @@ PCL_GPF_EXPORT CloudFormat formatForPath(const std::string& path, const CloudFil
  */
 PCL_GPF_EXPORT void checkFits(const CloudFile& cloud, CloudFormat format, const std::string& path);
 
-}  // namespace pcl_gpf
+} // namespace pcl_gpf
