@@ -10,6 +10,9 @@ execute_process(COMMAND "${pkg_config}" --cflags --libs "${MODULE}"
 separate_arguments(module_flags UNIX_COMMAND "${module_flags}")
 file(MAKE_DIRECTORY "${WORK}")
 
+if(REFUSED)
+  list(APPEND FLAGS -Wfatal-errors) # the refusal is the first error; there is no need to read on
+endif()
 execute_process(
   COMMAND "${CXX}" -std=c++17 -O1 ${FLAGS} "${SOURCE}" -o "${WORK}/consumer" ${module_flags}
     "-Wl,-rpath,${PREFIX}/${LIBDIR}"
