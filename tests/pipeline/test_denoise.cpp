@@ -407,7 +407,7 @@ TEST(Denoise, canBeCancelledAtEveryReportOfEveryStage)
 
 TEST(DenoiseNormals, givesAUnitNormalForEveryFiniteRow)
 {
-  const Shape shape = turned(cube(3000, 0.005, 2));
+  const Shape shape = turned(cube(10000, 0.01, 2));
   Cloud cloud(shape);
   cloud.x[5] = kNaN;
   const DenoiseResult result = denoiseNormals(cloud.input(), {});

@@ -84,12 +84,14 @@ private:
   void
   chooseRuns(SplitMix64& random)
   {
+    near.query_count = query_count;
     near.run_offsets.push_back(0);
     for (std::size_t block = 0; block < blockCount(query_count); ++block) {
       std::vector<std::uint32_t> streamed;
       std::uint32_t begin = 0;
       while (begin < data_count) {
-        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(data_count, begin + 1 + random.below(40)));
+        const std::uint64_t longest = random.below(4) == 0 ? 1200 : 40;
+        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(data_count, begin + 1 + random.below(longest)));
         near.runs.push_back({begin, end});
         for (std::uint32_t j = begin; j < end; ++j)
           streamed.push_back(j);
