@@ -22,19 +22,6 @@ constexpr std::size_t kMostClouds = 8;
 constexpr Color kClay{0.78f, 0.80f, 0.84f};   // of surfaces without a colour of their own
 constexpr Color kDotInk{0.10f, 0.28f, 0.50f}; // of the points of a section
 
-bool
-isSection(const Options& options)
-{
-  return options.text("section") != "none";
-}
-
-Position
-vectorOption(const Options& options, const std::string& name)
-{
-  const std::vector<double> values = options.vector(name);
-  return {values[0], values[1], values[2]};
-}
-
 /** A point of a box, given as fractions of its sides. */
 Position
 pointOfBox(const BoundingBox& box, const Position& fractions)
@@ -43,20 +30,6 @@ pointOfBox(const BoundingBox& box, const Position& fractions)
   for (std::size_t axis = 0; axis < 3; ++axis)
     point[axis] = box.min[axis] + fractions[axis] * (box.max[axis] - box.min[axis]);
   return point;
-}
-
-void
-checkCombinations(const Options& options)
-{
-  if (isSection(options) && (options.given("view") || options.given("up")))
-    throw UsageError("--section looks along its own axis; leave --view and --up away");
-  if (options.given("view") && length(vectorOption(options, "view")) <= 0)
-    throw UsageError("option '--view': 0,0,0 is no direction");
-  if (options.given("up") && length(vectorOption(options, "up")) <= 0)
-    throw UsageError("option '--up': 0,0,0 is no direction");
-  for (const char* name : {"normal-radius", "section-thickness"})
-    if (options.length(name).unit == Length::Unit::Auto)
-      throw UsageError(std::string("option '--") + name + "': there is no automatic value; give a length");
 }
 
 /** Lengths such as 3x are read in the coarsest spacing of all clouds, so that they are the same length in each. */
@@ -82,7 +55,7 @@ setNormals(const Options& options, std::vector<PictureCloud>& clouds)
   for (PictureCloud& cloud : clouds) {
     if (in_files && source != "estimate")
       takeNormals(cloud);
-    else
+    else if (radius > 0) // without two different points there is no spacing, and the discs face the viewer
       estimateNormals(cloud, radius, threadCount(options));
   }
 }
@@ -235,7 +208,7 @@ writePicture(const Image& image, const Options& options)
 ExitCode
 runRender(const Options& options)
 {
-  checkCombinations(options);
+  checkRenderOptions(options);
   checkWritable(outputPath(options), options.given("overwrite"));
   Console console(options);
   std::vector<PictureCloud> clouds;

@@ -4,6 +4,7 @@
 #include "../option_groups.h"
 
 #include <limits>
+#include <string>
 
 namespace pcl_gpf {
 
@@ -64,6 +65,33 @@ renderOptions()
           {"labels", OptionKind::Text, "A,B", "auto", "text above each cloud; auto: file names above several; none"},
           overwriteOption(),
           threadsOption()};
+}
+
+void
+checkRenderOptions(const Options& options)
+{
+  if (isSection(options) && (options.given("view") || options.given("up")))
+    throw UsageError("--section looks along its own axis; leave --view and --up away");
+  if (options.given("view") && length(vectorOption(options, "view")) <= 0)
+    throw UsageError("option '--view': 0,0,0 is no direction");
+  if (options.given("up") && length(vectorOption(options, "up")) <= 0)
+    throw UsageError("option '--up': 0,0,0 is no direction");
+  for (const char* name : {"normal-radius", "section-thickness"})
+    if (options.length(name).unit == Length::Unit::Auto)
+      throw UsageError(std::string("option '--") + name + "': there is no automatic value; give a length");
+}
+
+bool
+isSection(const Options& options)
+{
+  return options.text("section") != "none";
+}
+
+Position
+vectorOption(const Options& options, const std::string& name)
+{
+  const std::vector<double> values = options.vector(name);
+  return {values[0], values[1], values[2]};
 }
 
 } // namespace pcl_gpf

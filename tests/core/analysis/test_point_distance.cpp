@@ -68,10 +68,11 @@ TEST(PointDistance, leavesOutRowsThatAreNotFinite)
   queries[3] = {0, kNaN, 0};
   const auto distances = tree.distances(queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (i == 3)
+    if (i == 3) {
       EXPECT_TRUE(std::isnan(distances[i]));
-    else
+    } else {
       EXPECT_EQ(distances[i], bruteForce(points, queries[i]));
+    }
   }
   EXPECT_EQ(tree.nearest(points[1]).index, 1u);
 }
