@@ -60,7 +60,7 @@ renderOptions()
           number("low", "", -kInfinity, kInfinity, "value of the field that is dark; without it that of the lowest 2 %"),
           number("high", "", -kInfinity, kInfinity, "value of the field that is bright; without it that of the highest 2 %"),
           choice("normals", {"auto", "file", "estimate"}, "normals for the light; auto: of the files when all have them"),
-          {"normal-radius", OptionKind::Length, "LENGTH", "2.5x", "radius in which they are estimated"},
+          {"normal-radius", OptionKind::Length, "LENGTH", "3x", "radius in which they are estimated"},
           {"splat", OptionKind::Length, "LENGTH", "auto", "radius of the discs that are drawn; auto is 1.4x"},
           {"labels", OptionKind::Text, "A,B", "auto", "text above each cloud; auto: file names above several; none"},
           overwriteOption(),
