@@ -59,14 +59,14 @@ estimateParameters(const CloudScale& scale, PlaneNormalsParameters& normals, Bil
                    GPFParameters& gpf)
 {
   std::vector<ParameterOrigin> origins;
-  fill(normals.radius, lengthFromScale("normals.radius", scale, 4.0, "4 x noise", 2.5, "2.5 x spacing"), origins);
+  fill(normals.radius, lengthFromScale("normals.radius", scale, 4.0, "4 x noise", 3.0, "3 x spacing"), origins);
   if (bilateral.neighbors == 0)
-    fill(bilateral.radius, lengthFromScale("bilateral.radius", scale, 7.0, "7 x noise", 4.0, "4 x spacing"), origins);
+    fill(bilateral.radius, lengthFromScale("bilateral.radius", scale, 8.0, "8 x noise", 6.0, "6 x spacing"), origins);
   const bool paper = gpf.variance_update == VarianceUpdate::Paper && gpf.posterior_normalization;
   if (paper)
     fill(gpf.support_radius, {"gpf.support_radius", 8.0 * scale.h0, "preset", "8 x h0, within the paper's 3 .. 12"}, origins);
   else
-    fill(gpf.support_radius, lengthFromScale("gpf.support_radius", scale, 11.0, "11 x noise", 6.0, "6 x spacing"), origins);
+    fill(gpf.support_radius, lengthFromScale("gpf.support_radius", scale, 11.0, "11 x noise", 8.0, "8 x spacing"), origins);
   return origins;
 }
 

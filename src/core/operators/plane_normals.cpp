@@ -7,6 +7,7 @@
 #include "../sorted_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -17,11 +18,14 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kFewestNeighbors = 6;
-constexpr std::size_t kNearestInstead = 12;
+/** Neighbourhoods for points whose ball holds too few neighbours, or only those of one scan line: the first that spans a plane. */
+constexpr std::array<std::size_t, 3> kNearestInstead = {12, 32, 96};
 constexpr std::size_t kPointsPerTask = 1024;
 /** Second eigenvalue below this share of the largest: the points lie on a line or coincide, no plane is better than another. Moments
  * summed in float and the closed-form eigenvalues resolve about 1e-7. */
 constexpr double kLineRatio = 1e-6;
+/** Below this share the plane turns freely about the line that the points follow. */
+constexpr double kNarrowRatio = 0.05;
 
 struct MomentSums {
   explicit MomentSums(std::size_t size) : count(size + kQueryBlock), mean(size), diagonal(size), mixed(size) {}
@@ -34,6 +38,7 @@ struct PlaneFit {
   Eigen::Vector3d normal{0.0, 0.0, 1.0};
   double surface_variation = 0.0;
   bool spans_plane = false;
+  bool narrow = true;
 };
 
 PlaneFit
@@ -53,6 +58,7 @@ fitPlane(double count, const Eigen::Vector3d& sum, Eigen::Matrix3d scatter)
   if (!(values[1] > kLineRatio * values[2]))
     return fit;
   fit.spans_plane = true;
+  fit.narrow = values[1] < kNarrowRatio * values[2];
   fit.normal = solver.eigenvectors().col(0).normalized();
   Eigen::Index largest = 0;
   fit.normal.cwiseAbs().maxCoeff(&largest);
@@ -66,15 +72,21 @@ PlaneFit
 fitNearest(const ClusterTree& tree, PointsView points, std::size_t i, std::vector<float>& distances_sq,
            std::vector<std::uint32_t>& indices)
 {
-  tree.nearest(points, {points.x[i], points.y[i], points.z[i]}, kNearestInstead, distances_sq, &indices);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t j : indices) {
-    const Eigen::Vector3d d(points.x[j] - points.x[i], points.y[j] - points.y[i], points.z[j] - points.z[i]);
-    sum += d;
-    scatter += d * d.transpose();
+  PlaneFit fit;
+  for (const std::size_t count : kNearestInstead) {
+    tree.nearest(points, {points.x[i], points.y[i], points.z[i]}, count, distances_sq, &indices);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const std::uint32_t j : indices) {
+      const Eigen::Vector3d d(points.x[j] - points.x[i], points.y[j] - points.y[i], points.z[j] - points.z[i]);
+      sum += d;
+      scatter += d * d.transpose();
+    }
+    fit = fitPlane(static_cast<double>(indices.size()), sum, scatter);
+    if (!fit.narrow || indices.size() < count)
+      break;
   }
-  return fitPlane(static_cast<double>(indices.size()), sum, scatter);
+  return fit;
 }
 
 PlaneFit
@@ -139,8 +151,11 @@ estimatePlaneNormals(const PlaneNormalsParameters& parameters, const PointIndex&
     std::vector<float> distances_sq;
     std::vector<std::uint32_t> indices;
     for (std::size_t i = begin; i < end; ++i) {
-      const bool few = sums.count[i] < static_cast<float>(kFewestNeighbors);
-      const PlaneFit fit = few ? fitNearest(points.tree(), view, i, distances_sq, indices) : fitMoments(sums, i);
+      PlaneFit fit;
+      if (sums.count[i] >= static_cast<float>(kFewestNeighbors))
+        fit = fitMoments(sums, i);
+      if (fit.narrow)
+        fit = fitNearest(points.tree(), view, i, distances_sq, indices);
       failures[begin / kPointsPerTask] += !fit.spans_plane;
       normals.x[i] = static_cast<float>(fit.normal[0]);
       normals.y[i] = static_cast<float>(fit.normal[1]);

@@ -11,8 +11,8 @@ namespace pcl_gpf {
 
 /** \brief Parameters of the plane fit (principal component analysis) that gives first normals. */
 struct PlaneNormalsParameters {
-  /** Radius of the neighbourhood in the unit of the points, >= 0; 0 = estimated. Points with fewer than 6 neighbours in it get the
-   * plane of their 12 nearest neighbours. */
+  /** Radius of the neighbourhood in the unit of the points, >= 0; 0 = estimated. Points with fewer than 6 neighbours in it, or
+   * only those of one scan line, get the plane of their 12, 32 or 96 nearest, the first of these that is not a line. */
   double radius = 0.0;
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
