@@ -37,28 +37,13 @@ estimate(const LocalCloud& cloud, double radius, unsigned threads = 0)
   return result;
 }
 
-/** The neighbours that the header promises: those within the radius, or the 12 nearest when they are fewer than 6. Empty when
- * rounding leaves the choice open. */
-std::vector<std::size_t>
-neighborsOf(const LocalCloud& cloud, std::size_t i, double radius)
-{
-  std::vector<double> r(cloud.size());
-  for (std::size_t j = 0; j < cloud.size(); ++j)
-    r[j] = distance(cloud.v[i], cloud.v[j]);
-  std::vector<std::size_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return r[a] < r[b]; });
-  if (std::any_of(r.begin(), r.end(), [&](double d) { return std::abs(d / radius - 1) < 1e-5; }))
-    return {};
-  auto count = static_cast<std::size_t>(std::count_if(r.begin(), r.end(), [&](double d) { return d < radius; }));
-  if (count < 6)
-    count = std::min<std::size_t>(12, order.size());
-  order.resize(count);
-  return order;
-}
+struct LiteralPlane {
+  bool decided = true; ///< false when rounding leaves the choice of neighbours open
+  Eigen::Vector3d values{0, 0, 0}, normal{0, 0, 1};
+};
 
-Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>
-literalFit(const LocalCloud& cloud, const std::vector<std::size_t>& neighbors)
+void
+fit(const LocalCloud& cloud, const std::vector<std::size_t>& neighbors, LiteralPlane& plane)
 {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const std::size_t j : neighbors)
@@ -68,7 +53,42 @@ literalFit(const LocalCloud& cloud, const std::vector<std::size_t>& neighbors)
     const Eigen::Vector3d d = Eigen::Vector3d(cloud.v[j].data()) - mean;
     covariance += d * d.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  plane.values = solver.eigenvalues();
+  plane.normal = solver.eigenvectors().col(0);
+}
+
+/** The plane that the header promises: of the ball, or of the 12, 32 or 96 nearest when the ball holds fewer than 6 points or a line. */
+LiteralPlane
+literalPlane(const LocalCloud& cloud, std::size_t i, double radius)
+{
+  std::vector<double> r(cloud.size());
+  for (std::size_t j = 0; j < cloud.size(); ++j)
+    r[j] = distance(cloud.v[i], cloud.v[j]);
+  std::vector<std::size_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return r[a] < r[b]; });
+  LiteralPlane plane;
+  plane.decided = std::none_of(r.begin(), r.end(), [&](double d) { return std::abs(d / radius - 1) < 1e-5; });
+  const auto isLine = [&plane] {
+    const double ratio = plane.values[1] / plane.values[2];
+    plane.decided = plane.decided && std::abs(ratio / 0.05 - 1) > 1e-3;
+    return ratio < 0.05;
+  };
+  const auto within = std::count_if(r.begin(), r.end(), [&](double d) { return d < radius; });
+  if (within >= 6) {
+    fit(cloud, {order.begin(), order.begin() + within}, plane);
+    if (!isLine())
+      return plane;
+  }
+  for (const std::size_t count : {12u, 32u, 96u}) {
+    const std::size_t used = std::min(count, order.size());
+    fit(cloud, {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(used)}, plane);
+    plane.decided = plane.decided && (used == order.size() || r[order[used]] > r[order[used - 1]] * (1 + 1e-5));
+    if (!isLine() || used < count)
+      break;
+  }
+  return plane;
 }
 
 /** Largest angle to Eigen's iterative solver in double over all points whose plane is well defined. */
@@ -79,17 +99,12 @@ largestAngle(const LocalCloud& cloud, double radius)
   double largest = 0;
   std::size_t compared = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const auto neighbors = neighborsOf(cloud, i, radius);
-    if (neighbors.empty())
-      continue;
-    const auto fit = literalFit(cloud, neighbors);
-    const Eigen::Vector3d values = fit.eigenvalues();
-    if (values[1] < 2 * values[0] || values[1] < 1e-3 * values[2])
-      continue; // two directions are as good as each other
+    const LiteralPlane plane = literalPlane(cloud, i, radius);
+    if (!plane.decided || plane.values[1] < 2 * plane.values[0])
+      continue; // or two directions are as good as each other
     ++compared;
-    const Eigen::Vector3d n = fit.eigenvectors().col(0);
-    largest = std::fmax(largest, lineAngle(found.normals[i], {n[0], n[1], n[2]}));
-    EXPECT_NEAR(found.variation[i], values[0] / values.sum(), 1e-5);
+    largest = std::fmax(largest, lineAngle(found.normals[i], {plane.normal[0], plane.normal[1], plane.normal[2]}));
+    EXPECT_NEAR(found.variation[i], plane.values[0] / plane.values.sum(), 1e-5);
   }
   EXPECT_GT(compared, cloud.size() * 3 / 4);
   return largest;
@@ -118,14 +133,32 @@ TEST(PlaneNormals, agreeWithEigenOnRandomBlobs)
       append(shape, turned(Vector3{random.normal(), width * random.normal(), thickness * random.normal()}), {0, 0, 1});
     const LocalCloud cloud = toLocalCloud(shape);
     const Estimate found = estimate(cloud, 3.0); // every point sees all
-    std::vector<std::size_t> all(cloud.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const auto fit = literalFit(cloud, all);
-    const Eigen::Vector3d values = fit.eigenvalues(), n = fit.eigenvectors().col(0);
-    const double separation = 1 - values[0] / values[1];
-    for (const Vector3& normal : found.normals)
-      ASSERT_LT(lineAngle(normal, {n[0], n[1], n[2]}), 1e-5 / (separation * separation) * values[2] / values[1]) << "blob " << blob;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const LiteralPlane plane = literalPlane(cloud, i, 3.0);
+      const double separation = 1 - plane.values[0] / plane.values[1];
+      if (!plane.decided)
+        continue;
+      ASSERT_LT(lineAngle(found.normals[i], {plane.normal[0], plane.normal[1], plane.normal[2]}),
+                1e-5 / (separation * separation) * plane.values[2] / plane.values[1])
+          << "blob " << blob;
+    }
   }
+}
+
+TEST(PlaneNormals, lookBeyondASingleScanLine)
+{
+  Shape lines; // 20 lines, ten times farther apart than their points
+  SplitMix64 random(6);
+  for (int line = 0; line < 20; ++line)
+    for (int i = 0; i < 200; ++i)
+      append(lines, turned(Vector3{0.005 * (i + 0.2 * random.uniform()), 0.05 * line, 0}), turned(Vector3{0, 0, 1}));
+  const LocalCloud cloud = toLocalCloud(lines);
+  const Estimate found = estimate(cloud, 0.03);
+  EXPECT_EQ(found.failed, 0u);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    wrong += lineAngle(found.normals[i], cloud.b[i]) > 0.01;
+  EXPECT_LT(wrong, cloud.size() / 100);
 }
 
 TEST(PlaneNormals, haveTheirLargestComponentPositiveAndLengthOne)
