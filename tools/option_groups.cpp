@@ -132,6 +132,23 @@ chosenFormat(const Options& options)
   return std::nullopt;
 }
 
+WriteOptions
+writeOptions(const Options& options)
+{
+  WriteOptions write;
+  write.format = chosenFormat(options);
+  write.overwrite = options.given("overwrite");
+  return write;
+}
+
+void
+checkOutputHolds(const CloudFile& cloud, const Options& options)
+{
+  const std::string& output = outputPath(options);
+  const std::optional<CloudFormat> format = chosenFormat(options);
+  checkFits(cloud, format ? *format : formatForPath(output, cloud), output);
+}
+
 void
 checkReport(const Options& options)
 {
@@ -147,6 +164,8 @@ checkOutputs(const Options& options)
     throw UsageError("the cloud and the report both go to '" + output + "'; give --json=FILE another name");
   checkReport(options);
   checkWritable(output, options.given("overwrite"));
+  if (!chosenFormat(options))
+    formatForPath(output, CloudFile());
 }
 
 } // namespace pcl_gpf

@@ -4,6 +4,7 @@
 #include "options.h"
 
 #include <pcl_gpf/io/cloud_file.h>
+#include <pcl_gpf/io/write_cloud.h>
 
 #include <optional>
 #include <string>
@@ -49,12 +50,21 @@ outputPath(const Options& options);
 std::optional<CloudFormat>
 chosenFormat(const Options& options);
 
+/** \brief Format and overwriting as writeCloud() wants them. */
+WriteOptions
+writeOptions(const Options& options);
+
+/** \brief Asks before any work whether the format of the output can hold such a cloud. \throws IoError (kind Unwritable) */
+void
+checkOutputHolds(const CloudFile& cloud, const Options& options);
+
 /** \brief Asks before any work whether the file of --json, if there is one, can be written.
  * \throws IoError (kind Unwritable) */
 void
 checkReport(const Options& options);
 
-/** \brief Asks before any work whether --output and --json FILE can be written, and refuses both on standard output.
+/** \brief Asks before any work whether --output and --json FILE can be written and whether the extension names a format; refuses
+ * both on standard output.
  * \throws UsageError, IoError (kind Unwritable) */
 void
 checkOutputs(const Options& options);

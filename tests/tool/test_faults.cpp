@@ -202,6 +202,7 @@ TEST_F(ToolFaults, ImpossibleOutputsAreRefusedBeforeTheInputIsRead) // W05
   expectUnwritable({"filter", "missing.pcd", "-o", folder_ / "no/such/folder/out.pcd"});
   expectUnwritable({"filter", "missing.pcd", "-o", folder_ / "directory.pcd", "--overwrite"});
   expectUnwritable({"filter", "missing.pcd", "-o", folder_ / "exists.pcd"});
+  expectUnwritable({"filter", "missing.pcd", "-o", folder_ / "cloud.jpeg"});
   expectUnwritable({"filter", "missing.pcd", "-o", folder_ / "new.pcd", "--json=" + (folder_ / "no/report.json")});
   std::filesystem::create_directory(folder_ / "read_only");
   ::chmod((folder_ / "read_only").c_str(), 0555);

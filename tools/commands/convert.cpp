@@ -82,10 +82,7 @@ runConvert(const Options& options)
     changePrecision(cloud, target);
   if (target == FieldType::Float32 && cloud.size() > 0)
     warnWhereFloatIsCoarse(input, cloud, console);
-  WriteOptions write;
-  write.format = chosenFormat(options);
-  write.overwrite = options.given("overwrite");
-  writeCloud(cloud, outputPath(options), write);
+  writeCloud(cloud, outputPath(options), writeOptions(options));
   console.say("wrote " + std::to_string(cloud.size()) + " points");
   return kExitOk;
 }

@@ -77,48 +77,61 @@ allEffective(const Options& options, const DenoiseParameters& used, const Denois
   return list;
 }
 
-ExitCode
-runFilter(const Options& options)
+/** Reads, and refuses whatever can be refused before the work. */
+LoadedCloud
+readInput(const Options& options, Console& console, FilterRun& run)
 {
-  checkOutputs(options);
-  Stopwatch total, stage;
-  Console console(options);
-  FilterRun run;
+  Stopwatch watch;
   run.input = options.files()[0];
   run.output = outputPath(options);
-
   LoadedCloud cloud = loadCloud(run.input, console);
   requireUsable(cloud);
+  checkOutputHolds(cloud.file, options);
   run.input_points = cloud.file.size();
   run.input_finite = cloud.finite;
   run.input_format = nameOf(cloud.file.format);
-  run.seconds_read = stage.lap();
+  run.normals = takesNormalsOfFile(options, cloud.file) ? "file" : "estimated";
+  run.seconds_read = watch.lap();
+  return cloud;
+}
 
-  const CloudScale scale = measureSpacing(cloud, threadCount(options));
-  refuseQuantized(cloud, scale, options.given("force"), console);
-  const bool file_normals = takesNormalsOfFile(options, cloud.file);
-  run.normals = file_normals ? "file" : "estimated";
-  const DenoiseParameters parameters = chosenParameters(options, cloud, scale);
-  run.threads = static_cast<unsigned>(resolveThreads(parameters.number_of_threads));
-  const DenoiseResult result = [&] {
-    Progress progress(options);
-    const auto update = [&progress](const std::string& name, double done) { return progress.update(name, done); };
-    return denoise(filterInput(cloud, file_normals).view, parameters, update);
-  }();
-  run.parameters = allEffective(options, parameters, result);
-  console.say(parametersText(run.parameters));
+DenoiseResult
+runChain(const Options& options, const LoadedCloud& cloud, const DenoiseParameters& parameters, bool file_normals)
+{
+  Progress progress(options);
+  const auto update = [&progress](const std::string& stage, double done) { return progress.update(stage, done); };
+  return denoise(filterInput(cloud, file_normals).view, parameters, update);
+}
 
-  stage.lap();
+void
+writeOutput(const Options& options, LoadedCloud& cloud, const DenoiseResult& result, Console& console, FilterRun& run)
+{
+  Stopwatch watch;
   const bool sampled = result.sample_indices.size() < cloud.finite;
   run.movement = applyPositions(cloud, result, console);
   if (!options.given("no-normals"))
     applyNormals(cloud.file, result, sampled ? std::vector<std::uint32_t>() : result.sample_indices);
-  WriteOptions write;
-  write.format = chosenFormat(options);
-  write.overwrite = options.given("overwrite");
-  writeCloud(cloud.file, run.output, write);
+  writeCloud(cloud.file, run.output, writeOptions(options));
   run.points = cloud.file.size();
-  run.seconds_write = stage.lap();
+  run.seconds_write = watch.lap();
+}
+
+ExitCode
+runFilter(const Options& options)
+{
+  checkOutputs(options);
+  Stopwatch total;
+  Console console(options);
+  FilterRun run;
+  LoadedCloud cloud = readInput(options, console, run);
+  const CloudScale scale = measureSpacing(cloud, threadCount(options));
+  refuseQuantized(cloud, scale, options.given("force"), console);
+  const DenoiseParameters parameters = chosenParameters(options, cloud, scale);
+  run.threads = static_cast<unsigned>(resolveThreads(parameters.number_of_threads));
+  const DenoiseResult result = runChain(options, cloud, parameters, run.normals == "file");
+  run.parameters = allEffective(options, parameters, result);
+  console.say(parametersText(run.parameters));
+  writeOutput(options, cloud, result, console, run);
   run.seconds_total = total.lap();
   console.say(summaryText(run, result));
   writeReport(filterReport(run, result, console.warnings()), options);

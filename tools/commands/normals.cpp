@@ -39,6 +39,7 @@ runNormals(const Options& options)
   Console console(options);
   LoadedCloud cloud = loadCloud(options.files()[0], console);
   requireUsable(cloud);
+  checkOutputHolds(cloud.file, options);
   const CloudScale scale =
       needsScale(normalTable(), options) ? measureSpacing(cloud, threadCount(options)) : CloudScale();
   DenoiseParameters parameters = readParameters(normalTable(), options, scale, DenoiseParameters());
@@ -52,10 +53,7 @@ runNormals(const Options& options)
   std::vector<EffectiveParameter> used = effectiveParameters(normalTable(), options, parameters, result.parameters);
   console.say(parametersText(used));
   applyNormals(cloud.file, result, {});
-  WriteOptions write;
-  write.format = chosenFormat(options);
-  write.overwrite = options.given("overwrite");
-  writeCloud(cloud.file, outputPath(options), write);
+  writeCloud(cloud.file, outputPath(options), writeOptions(options));
   console.say("wrote " + std::to_string(cloud.file.size()) + " points");
   return kExitOk;
 }
