@@ -32,6 +32,7 @@ main()
   for (const pcl::PointNormal& point : *cloud)
     sum += point.z * point.z;
   const double roughness = std::sqrt(sum / static_cast<double>(cloud->size()));
-  std::printf("%zu points, support radius %.3f, roughness 0.0050 -> %.4f\n", cloud->size(), gpf.getStatistics().support_radius, roughness);
+  const double radius = gpf.getStatistics().support_radius;
+  std::printf("%zu points, support radius %.3f, roughness 0.0050 -> %.4f\n", cloud->size(), radius, roughness);
   return roughness < 0.0025 ? 0 : 1;
 }

@@ -77,7 +77,8 @@ checkSearchMethod(const std::string& search_name, const LocalFrame& frame)
                            "use pcl::search::KdTree, or no search method for the built-in one");
   if (!(frame.scale >= kSmallestDiagonal && frame.scale <= kLargestDiagonal))
     throw InvalidParameter("the cloud's box diagonal is " + std::to_string(frame.scale) +
-                           ", whose square a PCL search cannot hold in float; change the unit or use the built-in search");
+                           ", whose square a PCL search cannot hold in float; "
+                           "change the unit or use the built-in search");
 }
 
 } // namespace pcl_gpf

@@ -89,7 +89,7 @@ TEST(NormalEstimation, EmptyTinyAndAllNaNClouds)
   Cloud cloud;
   EXPECT_EQ(estimateNormals(cloud), 0u);
   EXPECT_TRUE(cloud.is_dense);
-  for (const std::size_t count : {1, 2}) {
+  for (const std::size_t count : {1u, 2u}) {
     cloud = *sphereWithoutNormals(count);
     EXPECT_EQ(estimateNormals(cloud), count) << "no plane";
     EXPECT_FALSE(cloud.is_dense);
@@ -106,7 +106,8 @@ TEST(NormalEstimation, ParametersOutOfRangeThrow)
   NormalEstimationParameters few;
   few.neighbors = 2;
   EXPECT_THROW(estimateNormals(*cloud, few), pcl::BadArgumentException);
-  for (const double radius : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  using Limits = std::numeric_limits<double>;
+  for (const double radius : {-1.0, Limits::quiet_NaN(), Limits::infinity()}) {
     NormalEstimationParameters parameters;
     parameters.radius = radius;
     EXPECT_THROW(estimateNormals(*cloud, parameters), pcl::BadArgumentException);

@@ -61,8 +61,8 @@ TEST(Pack, SortsPointsOutAndTakesEachOnce)
   EXPECT_EQ(packed.chosen, (pcl::Indices{9, 8, 7, 6, 5, 4, 2, 0}));
   using S = PointState;
   EXPECT_EQ(packed.states,
-            (std::vector<PointState>{S::Usable, S::Usable, S::WithoutNormal, S::WithoutNormal, S::WithoutNormal, S::NonFinite,
-                                     S::NonFinite, S::Usable}));
+            (std::vector<S>{S::Usable, S::Usable, S::WithoutNormal, S::WithoutNormal, S::WithoutNormal,
+                            S::NonFinite, S::NonFinite, S::Usable}));
   EXPECT_EQ(packed.size(), 3u);
   EXPECT_EQ(packed.points_without_normal, 3u);
   EXPECT_EQ(packed.non_finite_points, 2u);

@@ -120,8 +120,9 @@ TEST(SearchAdapterLimits, RowsAreTheSameForAnyNumberOfThreads)
         row.push_back(d);
   };
   const NeighborLists expected = collectRows(3000, 1, divisors);
-  EXPECT_EQ(std::vector<std::uint32_t>(expected.indices.begin(), expected.indices.begin() + 3), (std::vector<std::uint32_t>{1, 1, 2}));
-  for (const std::size_t threads : {2, 3, 7}) {
+  const std::vector<std::uint32_t> first(expected.indices.begin(), expected.indices.begin() + 3);
+  EXPECT_EQ(first, (std::vector<std::uint32_t>{1, 1, 2})) << "each row ascends";
+  for (const std::size_t threads : {2u, 3u, 7u}) {
     const NeighborLists lists = collectRows(3000, threads, divisors);
     EXPECT_EQ(lists.offsets, expected.offsets);
     EXPECT_EQ(lists.indices, expected.indices);

@@ -331,14 +331,15 @@ TYPED_TEST(FilterContract, EmptyCloudAndNothingFinite)
   EXPECT_TRUE(std::all_of(output.begin(), output.end(), [](const PointT& point) { return std::isnan(point.x); }));
 
   const std::string messages = ::testing::internal::GetCapturedStderr();
-  EXPECT_NE(messages.find("[pcl_gpf::" + std::string(Contract::kName) + "::applyFilter] None of the 0 points"), std::string::npos);
+  const std::string head = "[pcl_gpf::" + std::string(Contract::kName) + "::applyFilter] ";
+  EXPECT_NE(messages.find(head + "None of the 0 points"), std::string::npos);
   EXPECT_NE(messages.find("None of the 400 points is finite"), std::string::npos);
 }
 
 TYPED_TEST(FilterContract, TooFewAndIdenticalPointsAreCopiedWithAWarning)
 {
   USING_FIXTURE;
-  for (const std::size_t count : {1, 2, 3}) {
+  for (const std::size_t count : {1u, 2u, 3u}) {
     const CloudPtr cloud = toCloud<PointT>(cube(count));
     ::testing::internal::CaptureStderr();
     const Cloud output = this->run(cloud);

@@ -218,9 +218,9 @@ TEST(GPFLaws, RigidMotionCommutes)
       Eigen::Translation3d(3, -2, 1) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
   Shape moved = shape;
   for (std::size_t i = 0; i < shape.size(); ++i) {
-    Eigen::Map<Eigen::Vector3d>(moved.points[i].data()) = motion * Eigen::Map<const Eigen::Vector3d>(shape.points[i].data());
-    Eigen::Map<Eigen::Vector3d>(moved.normals[i].data()) =
-        motion.linear() * Eigen::Map<const Eigen::Vector3d>(shape.normals[i].data());
+    Eigen::Map<Eigen::Vector3d> point(moved.points[i].data()), normal(moved.normals[i].data());
+    point = (motion * point).eval();
+    normal = (motion.linear() * normal).eval();
   }
   const Cloud output = runDefault(cloud);
   const Cloud output_moved = runDefault(toCloud<PointT>(moved));
@@ -349,7 +349,11 @@ class GPFPaper : public ::testing::TestWithParam<PaperCase> {};
 
 /** \brief The oracle, with X^0 as the filter chose it. */
 LiteralGPF
-literal(const Cloud& cloud, const pcl::Indices& samples, double support_radius, const GPFParameters& parameters, LocalFrame& frame)
+literal(const Cloud& cloud,
+        const pcl::Indices& samples,
+        double support_radius,
+        const GPFParameters& parameters,
+        LocalFrame& frame)
 {
   BoundingBox box;
   for (const PointT& point : cloud)

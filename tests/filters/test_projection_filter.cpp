@@ -85,7 +85,7 @@ TEST(ProjectionFilter, SampleRatioIsASeededSubsetInOrder)
   pcl::Indices together = *lift.getRemovedIndices();
   EXPECT_TRUE(std::is_sorted(together.begin(), together.end()));
   together.insert(together.end(), first.begin(), first.end());
-  EXPECT_EQ(std::set<int>(together.begin(), together.end()).size(), cloud->size()) << "seeds and removed points are all points";
+  EXPECT_EQ(std::set<int>(together.begin(), together.end()).size(), cloud->size()) << "seeds and removed are all";
 
   run(lift, cloud);
   EXPECT_EQ(lift.getSampleIndices(), first) << "same seed, same choice";

@@ -8,9 +8,11 @@
 
 namespace pcl_gpf::test {
 
-/** \brief The paper's recursion, term by term, in double and without any neighbour structure: the oracle of the paper mode.
+/** \brief The paper's recursion, term by term, in double and without any neighbour structure: the oracle of the paper
+ * mode.
  *
- * Eqs. 3, 10 and 11 with the neighbourhoods of section 4.4. O(N M + M^2) a step; N of a few thousand is fine. Names are the paper's.
+ * Eqs. 3, 10 and 11 with the neighbourhoods of section 4.4. O(N M + M^2) a step; N of a few thousand is fine. Names are
+ * the paper's.
  */
 struct LiteralGPF {
   using Vector3 = std::array<double, 3>;

@@ -13,7 +13,8 @@ namespace pcl_gpf::test {
 
 using Vector3 = std::array<double, 3>;
 
-/** \brief Seeded samples of a surface with exact normals; a noisy point keeps the normal of the clean one that it came from. */
+/** \brief Seeded samples of a surface with exact normals; a noisy point keeps the normal of the clean one that it came
+ * from. */
 struct Shape {
   std::vector<Vector3> points;
   std::vector<Vector3> normals; ///< unit length, outward

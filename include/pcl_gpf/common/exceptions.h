@@ -7,11 +7,11 @@
 
 namespace pcl_gpf {
 
-/** \brief To be called inside a catch block: throws the current exception again, an error of the core as the PCL exception that
- * a PCL user expects.
+/** \brief To be called inside a catch block: throws the current exception again, an error of the core as the PCL
+ * exception that a PCL user expects.
  *
- * InvalidParameter becomes pcl::BadArgumentException, UnsuitableData and ExcessiveWork become pcl::ComputeFailedException;
- * anything else passes unchanged.
+ * InvalidParameter becomes pcl::BadArgumentException, UnsuitableData and ExcessiveWork become
+ * pcl::ComputeFailedException; anything else passes unchanged.
  * \param[in] class_name of the filter, put in front of the message
  */
 [[noreturn]] PCL_GPF_EXPORT void

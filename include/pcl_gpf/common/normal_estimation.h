@@ -16,8 +16,8 @@ namespace pcl_gpf {
 
 /** \brief Parameters of estimateNormals(). */
 struct NormalEstimationParameters {
-  /** Number of nearest neighbours k >= 3 whose plane gives the normal, the point itself included; not used when `radius` is set.
-   * Few: noisy normals. Many: edges become round. */
+  /** Number of nearest neighbours k >= 3 whose plane gives the normal, the point itself included; not used when
+   * `radius` is set. Few: noisy normals. Many: edges become round. */
   unsigned neighbors = 30;
   /** Radius of the neighbourhood in cloud units, >= 0; 0 = by `neighbors`. */
   double radius = 0.0;
@@ -25,7 +25,8 @@ struct NormalEstimationParameters {
   unsigned number_of_threads = 0;
 };
 
-/** \brief Normals and curvatures of finite points by pcl::NormalEstimationOMP, turned towards `viewpoint`; NaN where no plane fits.
+/** \brief Normals and curvatures of finite points by pcl::NormalEstimationOMP, turned towards `viewpoint`; NaN where no
+ * plane fits.
  *
  * \param[in] points not null, finite positions
  * \param[in] viewpoint in the frame of the points
@@ -36,21 +37,22 @@ estimateNormalsOfFinitePoints(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& po
                               const Eigen::Vector3f& viewpoint,
                               const NormalEstimationParameters& parameters);
 
-/** \brief Gives every finite point of a cloud a normal and, where the type has it, a curvature, by pcl::NormalEstimationOMP.
+/** \brief Gives every finite point of a cloud a normal and, where the type has it, a curvature, by
+ * pcl::NormalEstimationOMP.
  *
- * All other fields, the order and the organisation stay. Points that are not finite, or have too few neighbours for a plane, get
- * a NaN normal. is_dense is set by fact. Normals point towards the cloud's sensor origin.
+ * All other fields, the order and the organisation stay. Points that are not finite, or have too few neighbours for a
+ * plane, get a NaN normal. is_dense is set by fact. Normals point towards the cloud's sensor origin.
  * Cost: one k-d tree and one query a point.
  * \return number of points that have no normal
  * \throws pcl::BadArgumentException if a parameter is out of its range
- * \note A viewpoint orients one scan; a cloud merged from several, or a closed surface seen from inside its box, gets signs that
- * are not consistent. BilateralNormalFilter (by default) and GPF do not need consistent signs.
+ * \note A viewpoint orients one scan; a cloud merged from several, or a closed surface seen from inside its box, gets
+ * signs that are not consistent. BilateralNormalFilter (by default) and GPF do not need consistent signs.
  */
 template <typename PointT> std::size_t
 estimateNormals(pcl::PointCloud<PointT>& cloud, const NormalEstimationParameters& parameters = {})
 {
-  // A separate cloud of the finite points, about the first of them: PCL then sees a dense cloud (its own output flag would turn
-  // off its test of the input when both are one cloud), and large coordinates cost no digits.
+  // A separate cloud of the finite points, about the first of them: PCL then sees a dense cloud (its own output flag
+  // would turn off its test of the input when both are one cloud), and large coordinates cost no digits.
   pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
   std::vector<std::size_t> places;
   Eigen::Vector3f centre = Eigen::Vector3f::Zero();

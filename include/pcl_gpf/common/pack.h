@@ -96,7 +96,7 @@ pack(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
   BoundingBox box;
   PackedCloud packed = detail::chooseAndBox(cloud, indices, box);
   if (box.count >= std::numeric_limits<std::uint32_t>::max())
-    throw ExcessiveWork(std::to_string(box.count) + " points are more than one run can index (2^32 - 2); filter the cloud in parts");
+    throw ExcessiveWork(std::to_string(box.count) + " points are more than one run can index (2^32 - 2); filter in parts");
   packed.frame = localFrame(box);
   packed.all_identical = !(box.diagonal() > 0);
   packed.points = SoaBuffer(box.count);
@@ -118,7 +118,8 @@ pack(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
   return packed;
 }
 
-/** \brief What rounding the packed points to float cut off; for recursions that run in double. 12 bytes a usable point. */
+/** \brief What rounding the packed points to float cut off; for recursions that run in double. 12 bytes a usable point.
+ */
 template <typename PointT> SoaBuffer
 packRemainders(const pcl::PointCloud<PointT>& cloud, const PackedCloud& packed)
 {

@@ -25,21 +25,26 @@ constexpr std::size_t kMaximumPairs = std::size_t{1} << 30;
 
 /** \brief Collects the rows of all queries, each sorted ascending. \throws ExcessiveWork beyond `maximum_pairs` */
 PCL_GPF_EXPORT NeighborLists
-collectRows(std::size_t queries, std::size_t threads, const RowSearch& search, std::size_t maximum_pairs = kMaximumPairs);
+collectRows(std::size_t queries,
+            std::size_t threads,
+            const RowSearch& search,
+            std::size_t maximum_pairs = kMaximumPairs);
 
-/** \brief Radius to ask a pcl::search::Search for, cloud units: a hair more than wanted, because FLANN leaves points at exactly the
- * radius out and works in float; the core tests the distance again. */
+/** \brief Radius to ask a pcl::search::Search for, cloud units: a hair more than wanted, because FLANN leaves points at
+ * exactly the radius out and works in float; the core tests the distance again. */
 PCL_GPF_EXPORT double
 widenedRadius(const LocalFrame& frame, double radius);
 
-/** \brief Checks that a search can work for us: any that takes unorganised clouds, on extents whose square fits a float.
+/** \brief Checks that a search can work for us: any that takes unorganised clouds, on extents whose square fits a
+ * float.
  * \throws InvalidParameter */
 PCL_GPF_EXPORT void
 checkSearchMethod(const std::string& search_name, const LocalFrame& frame);
 
 namespace detail {
 
-/** \brief Positions in cloud units about the box centre: sizes that a search was set up for stay right, and no digit is lost. */
+/** \brief Positions in cloud units about the box centre: sizes that a search was set up for stay right, and no digit is
+ * lost. */
 template <typename PointT> void
 setCentredPosition(const LocalFrame& frame, PointsView points, std::size_t i, PointT& point)
 {
@@ -52,8 +57,9 @@ setCentredPosition(const LocalFrame& frame, PointsView points, std::size_t i, Po
 
 /** \brief A pcl::search::Search as the core's neighbour search; an empty function for a null pointer.
  *
- * The search gets clouds of finite points in cloud units about the box centre, a new one at every call, so its input cloud is
- * replaced and stays replaced. Its results may come in any order; its queries must be safe to run concurrently (PCL's are).
+ * The search gets clouds of finite points in cloud units about the box centre, a new one at every call, so its input
+ * cloud is replaced and stays replaced. Its results may come in any order; its queries must be safe to run concurrently
+ * (PCL's are).
  * \throws InvalidParameter if the search needs organised clouds
  */
 template <typename PointT> NeighborSearch

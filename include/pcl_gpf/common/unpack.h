@@ -42,7 +42,8 @@ makeHole(PointT& point)
 
 /** \brief Writes output points: each is its seed point as a whole, then position and normal are replaced.
  *
- * Kept points without a normal are copied as they are; kept points that are not finite become holes: NaN in position and normal.
+ * Kept points without a normal are copied as they are; kept points that are not finite become holes: NaN in position
+ * and normal.
  * \param[out] output has filtered.kept.size() points already; is_dense is set by fact
  */
 template <typename PointT> void

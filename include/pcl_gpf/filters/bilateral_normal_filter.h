@@ -15,23 +15,23 @@ struct BilateralNormalFilterStatistics : FilterStatistics {
 
 /** \brief Filters the normals of a cloud and keeps their jumps at sharp edges; the step before GPF.
  *
- * Huang, Wu, Gong, Cohen-Or, Ascher, Zhang, **Edge-Aware Point Set Resampling**, ACM TOG 2013, section 4: each normal becomes the
- * average of its neighbours' normals, weighted by distance and by the angle between them.
+ * Huang, Wu, Gong, Cohen-Or, Ascher, Zhang, **Edge-Aware Point Set Resampling**, ACM TOG 2013, section 4: each normal
+ * becomes the average of its neighbours' normals, weighted by distance and by the angle between them.
  * \code
  * pcl_gpf::estimateNormals(*cloud);                          // pcl_gpf/common/normal_estimation.h
  * pcl_gpf::BilateralNormalFilter<pcl::PointNormal> bilateral;
  * bilateral.setInputCloud(cloud);
  * bilateral.filter(*cloud);
  * \endcode
- * Only normals change, to unit length. Size, order, organisation and positions stay: unlike GPF, points that are not finite stay
- * too, as NaN, and points without a usable normal keep it. With setIndices() the output has the points of the indices.
- * By default neighbours of opposite sign are flipped before averaging, so that the normals need no consistent orientation; each
- * keeps its own sign.
+ * Only normals change, to unit length. Size, order, organisation and positions stay: unlike GPF, points that are not
+ * finite stay too, as NaN, and points without a usable normal keep it. With setIndices() the output has the points of
+ * the indices. By default neighbours of opposite sign are flipped before averaging, so that the normals need no
+ * consistent orientation; each keeps its own sign.
  * \note Normals that are off by more than the angle are not averaged: raise setAngle() for strong noise.
  * \note In the sign-invariant form two directions are never more than 90 degrees apart: 100 count as 80.
  *
- * Cost: O(iterations * N * points in the radius) time, O(N) memory. Everything of OperatorFilter holds. Setters only store; filter()
- * checks. What each parameter means, its range and default: BilateralNormalsParameters.
+ * Cost: O(iterations * N * points in the radius) time, O(N) memory. Everything of OperatorFilter holds. Setters only
+ * store; filter() checks. What each parameter means, its range and default: BilateralNormalsParameters.
  * \throws pcl::BadArgumentException, pcl::ComputeFailedException from filter(), see OperatorFilter
  * \ingroup filters
  */
@@ -55,8 +55,8 @@ public:
   void setRadius(double radius) { parameters_.radius = radius; }
   double getRadius() const { return parameters_.radius; }
 
-  /** \brief Number of neighbours k, 0 or 3 .. 1000, the farthest of which sets the radius of each point; not together with a radius.
-   * Default 0. */
+  /** \brief Number of neighbours k, 0 or 3 .. 1000, the farthest of which sets the radius of each point; not together
+   * with a radius. Default 0. */
   void setNeighbors(unsigned neighbors) { parameters_.neighbors = neighbors; }
   unsigned getNeighbors() const { return parameters_.neighbors; }
 

@@ -13,31 +13,36 @@ namespace pcl_gpf {
 /** \brief What GPF did, after filter(). */
 struct GPFStatistics : FilterStatistics {
   std::vector<IterationStats> iterations; ///< variance in the normalised frame, movements in cloud units
-  std::size_t isolated_points = 0;        ///< points of X without data in reach in the last iteration; they stayed where they were
+  std::size_t isolated_points = 0;        ///< points of X without data in reach in the last iteration; they did not move
   double support_radius = 0;              ///< h that was used, cloud units
   bool support_radius_estimated = false;
 };
 
 /** \brief Moves the points of a noisy cloud onto its underlying surface and keeps sharp features.
  *
- * Lu, Wu, Chen, Yeung, Chen, Zwicker, **GPF: GMM-inspired Feature-preserving Point Set Filtering**, TVCG 2017; equation numbers in
- * this library are the paper's. Normals should be filtered first, by BilateralNormalFilter. Their signs do not matter.
+ * Lu, Wu, Chen, Yeung, Chen, Zwicker, **GPF: GMM-inspired Feature-preserving Point Set Filtering**, TVCG 2017; equation
+ * numbers in this library are the paper's. Normals should be filtered first, by BilateralNormalFilter. Their signs do
+ * not matter.
  * \code
  * pcl_gpf::GPF<pcl::PointNormal> gpf;
  * gpf.setInputCloud(cloud);
  * gpf.filter(*cloud);
  * \endcode
- * The default is a filter: every point is kept, in order; it moves along normals only (no repulsion); sigma^2 stays at (h / 2)^2;
- * the planes of both points of a pair pull (DataTerm::Symmetric), which does not inflate curved parts; input points of another
- * normal direction pull less, which keeps points from piling up on edges; h comes from the noise and the spacing of the cloud.
- * setParameters(GPFParameters::paper()) is the paper's Algorithm 1 instead, which resamples half of the points.
- * \note Algorithm 1 with its literal eq. 11 hardly filters: sigma^2 comes from distances along one normal but is divided by d = 3,
- * so it shrinks about threefold a round, each point clings to its nearest neighbour and the noise stays (on a cube with 1 % noise
- * the mean error goes from 0.79 % of the diagonal to 0.80 %; with sigma fixed to 0.19 %). Use it to reproduce the paper.
- * \note Sheets closer together than h / 2 are drawn together, and open borders shrink a little. Set the support radius then.
+ * The default is a filter: every point is kept, in order; it moves along normals only (no repulsion); sigma^2 stays at
+ * (h / 2)^2; the planes of both points of a pair pull (DataTerm::Symmetric), which does not inflate curved parts; input
+ * points of another normal direction pull less, which keeps points from piling up on edges; h comes from the noise and
+ * the spacing of the cloud. setParameters(GPFParameters::paper()) is the paper's Algorithm 1 instead, which resamples
+ * half of the points.
+ * \note Algorithm 1 with its literal eq. 11 hardly filters: sigma^2 comes from distances along one normal but is
+ * divided by d = 3, so it shrinks about threefold a round, each point clings to its nearest neighbour and the noise
+ * stays (on a cube with 1 % noise the mean error goes from 0.79 % of the diagonal to 0.80 %; with sigma fixed to 0.19
+ * %). Use it to reproduce the paper.
+ * \note Sheets closer together than h / 2 are drawn together, and open borders shrink a little: set a smaller
+ * support radius then.
  *
- * Cost: O(iterations * (N + M) * points in the ball h / 2) time, O(N + M) memory. Everything of OperatorFilter and ProjectionFilter
- * holds. Setters only store; filter() checks. What each parameter means, its range and default: GPFParameters.
+ * Cost: O(iterations * (N + M) * points in the ball h / 2) time, O(N + M) memory. Everything of OperatorFilter and
+ * ProjectionFilter holds. Setters only store; filter() checks. What each parameter means, its range and default:
+ * GPFParameters.
  * \throws pcl::BadArgumentException, pcl::ComputeFailedException from filter(), see OperatorFilter
  * \ingroup filters
  */

@@ -21,7 +21,7 @@ namespace pcl_gpf {
 /** \brief What every filter of this library reports after filter(). */
 struct FilterStatistics {
   std::size_t points = 0;                ///< N: points with finite position and a normal, the data set V
-  std::size_t points_without_normal = 0; ///< finite position, normal NaN or zero: not data; copied as they are, or removed by sampling
+  std::size_t points_without_normal = 0; ///< finite position, normal NaN or zero: not data; copied, or removed by sampling
   std::size_t non_finite_points = 0;     ///< not data; removed, or a hole of an organised cloud
   double seconds = 0;                    ///< of the whole call
   bool cancelled = false;                ///< the progress callback returned false; the output is empty
@@ -29,16 +29,18 @@ struct FilterStatistics {
 
 /** \brief An operator of the core as a pcl::Filter: the base of all filters here, which holds PCL's contract once.
  *
- * - The data set V is exactly the usable points of setIndices(), all points by default: indices choose data and queries alike. An
- *   index given twice counts once. Output points are in the order of the indices.
- * - An output point is its seed point as a whole, with position and normal replaced. Header and sensor pose are the input's.
- * - getRemovedIndices(): those of setIndices() that seeded no output point and those that are not finite, ascending; needs
- *   the constructor's argument true. getSampleIndices(): the seed of every output point.
+ * - The data set V is exactly the usable points of setIndices(), all points by default: indices choose data and queries
+ *   alike. An index given twice counts once. Output points are in the order of the indices.
+ * - An output point is its seed point as a whole, with position and normal replaced. Header and sensor pose are the
+ *   input's.
+ * - getRemovedIndices(): those of setIndices() that seeded no output point and those that are not finite, ascending;
+ *   needs the constructor's argument true. getSampleIndices(): the seed of every output point.
  * - An organised cloud stays organised when there are no indices and every point is kept; its holes stay, as NaN.
- * - Fewer than four usable points, and points that all coincide, are copied with a warning. Nothing finite: a warning and an empty
- *   output (an organised cloud: all holes).
- * - The object can be used again after success, cancellation and exceptions, after which the output is empty; an in-place call that
- *   throws leaves the cloud as it was. Without an input cloud PCL prints an error and leaves the output alone.
+ * - Fewer than four usable points, and points that all coincide, are copied with a warning. Nothing finite: a warning
+ *   and an empty output (an organised cloud: all holes).
+ * - The object can be used again after success, cancellation and exceptions, after which the output is empty; an
+ *   in-place call that throws leaves the cloud as it was. Without an input cloud PCL prints an error and leaves the
+ *   output alone.
  * \throws pcl::BadArgumentException if a parameter or an index is out of range or no point has a usable normal,
  * pcl::ComputeFailedException if the work would be excessive
  * Thread safety: one object, one thread at a time. The result does not depend on the number of threads.
@@ -46,8 +48,8 @@ struct FilterStatistics {
 template <typename PointT>
 class OperatorFilter : public pcl::Filter<PointT> {
   static_assert(pcl::traits::has_xyz_v<PointT> && pcl::traits::has_normal_v<PointT>,
-                "pcl_gpf filters need a point type with xyz and normal fields, for example pcl::PointNormal; copy the cloud into "
-                "one with pcl::copyPointCloud() and fill the normals with pcl_gpf::estimateNormals()");
+                "pcl_gpf filters need a point type with xyz and normal fields, for example pcl::PointNormal; "
+                "copy the cloud into one with pcl::copyPointCloud() and fill the normals with pcl_gpf::estimateNormals()");
 
 public:
   using Ptr = pcl::shared_ptr<OperatorFilter<PointT>>;
@@ -58,7 +60,8 @@ public:
   ~OperatorFilter() override;
 
   /** \brief Neighbour search; null = the built-in grid, which is faster. Default null. The result is the same.
-   * \note The search is given temporary clouds and keeps the last of them. pcl::search::OrganizedNeighbor cannot serve. */
+   * \note The search is given temporary clouds and keeps the last of them. pcl::search::OrganizedNeighbor cannot serve.
+   */
   void
   setSearchMethod(const SearchPtr& search);
   SearchPtr
@@ -70,8 +73,8 @@ public:
   unsigned int
   getNumberOfThreads() const;
 
-  /** \brief Called with the fraction done, from the calling thread; if it returns false, filter() prints a warning and leaves an
-   * empty output, and getStatistics().cancelled is true. Default none. */
+  /** \brief Called with the fraction done, from the calling thread; if it returns false, filter() prints a warning and
+   * leaves an empty output, and getStatistics().cancelled is true. Default none. */
   void
   setProgressCallback(const ProgressCallback& callback);
   const ProgressCallback&
@@ -108,7 +111,8 @@ protected:
   keptPoints(const PackedCloud& packed) const;
 
   /** \brief Runs the operator.
-   * \param[in,out] displacements M in the normalised frame, all 0 so far \param[in,out] normals M, so far those of the seeds
+   * \param[in,out] displacements M in the normalised frame, all 0 so far \param[in,out] normals M, so far those of the
+   * seeds
    * \throws InvalidParameter, UnsuitableData, ExcessiveWork, Cancelled */
   virtual void
   runOperator(const OperatorInput& input, MutableVectorsView displacements, MutableVectorsView normals) = 0;

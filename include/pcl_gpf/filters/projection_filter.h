@@ -11,9 +11,9 @@ namespace pcl_gpf {
 
 /** \brief Base of filters that project points X onto the surface of a cloud V: OperatorFilter and the choice of X^0.
  *
- * X^0 is, in this order of precedence: the points of setSampleIndices(); a seeded random share of V when setSampleRatio() is below
- * 1; every point. In the last case points without a normal are kept where they are, and those that are not finite are removed,
- * unless the cloud is organised and no indices were set.
+ * X^0 is, in this order of precedence: the points of setSampleIndices(); a seeded random share of V when
+ * setSampleRatio() is below 1; every point. In the last case points without a normal are kept where they are, and those
+ * that are not finite are removed, unless the cloud is organised and no indices were set.
  * A new filter gives a parameter struct, checkParameters(), clearStatistics() and runOperator(); GPF is the model.
  */
 template <typename PointT>
@@ -32,7 +32,8 @@ public:
   void
   setSampleIndices(const pcl::Indices& indices);
 
-  /** \brief Share of V that seeds X^0, 0 < ratio <= 1. Default 1: every point, in order. At least one point is taken. */
+  /** \brief Share of V that seeds X^0, 0 < ratio <= 1. Default 1: every point, in order. At least one point is taken.
+   */
   void
   setSampleRatio(double ratio);
   double

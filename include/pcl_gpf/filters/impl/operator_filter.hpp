@@ -85,7 +85,8 @@ OperatorFilter<PointT>::applyFilter(PointCloud& output)
   catch (const Cancelled&) {
     output.clear();
     statistics.cancelled = true;
-    PCL_WARN("[pcl_gpf::%s::applyFilter] Cancelled by the progress callback; the output is empty.\n", this->getClassName().c_str());
+    PCL_WARN("[pcl_gpf::%s::applyFilter] Cancelled by the progress callback; the output is empty.\n",
+             this->getClassName().c_str());
   }
   catch (...) {
     output.clear();
@@ -102,17 +103,18 @@ OperatorFilter<PointT>::filterPoints(PointCloud& output, FilterStatistics& stati
   statistics.points_without_normal = packed.points_without_normal;
   statistics.non_finite_points = packed.non_finite_points;
   if (packed.size() == 0 && packed.points_without_normal > 0)
-    throw InvalidParameter("no point has a usable normal; fill the normals before, for example with pcl_gpf::estimateNormals() or "
-                           "pcl::NormalEstimationOMP");
+    throw InvalidParameter("no point has a usable normal; fill the normals before, "
+                           "for example with pcl_gpf::estimateNormals() or pcl::NormalEstimationOMP");
 
   FilteredPoints filtered = seedPoints(packed);
   const bool degenerate = packed.size() < kFewestPoints || packed.all_identical;
   warnAbout(packed, degenerate);
   if (!degenerate) {
     // As many ascending rows as V has are all of them.
-    const bool every_row = filtered.rows.size() == packed.size() && std::is_sorted(filtered.rows.begin(), filtered.rows.end());
+    const std::vector<std::uint32_t>& rows = filtered.rows;
+    const bool every_row = rows.size() == packed.size() && std::is_sorted(rows.begin(), rows.end());
     const std::size_t threads = resolveThreads(threads_);
-    runOperator({packed, filtered.rows, every_row, adaptSearch<PointT>(search_, packed.frame, threads)},
+    runOperator({packed, rows, every_row, adaptSearch<PointT>(search_, packed.frame, threads)},
                 filtered.displacements.view(),
                 filtered.normals.view());
   }
@@ -129,7 +131,9 @@ OperatorFilter<PointT>::warnAbout(const PackedCloud& packed, bool degenerate) co
 {
   const char* name = this->getClassName().c_str();
   if (packed.size() == 0)
-    PCL_WARN("[pcl_gpf::%s::applyFilter] None of the %zu points is finite; nothing to filter.\n", name, packed.chosen.size());
+    PCL_WARN("[pcl_gpf::%s::applyFilter] None of the %zu points is finite; nothing to filter.\n",
+             name,
+             packed.chosen.size());
   else if (degenerate)
     PCL_WARN("[pcl_gpf::%s::applyFilter] %zu points%s span no surface; they are copied.\n",
              name,

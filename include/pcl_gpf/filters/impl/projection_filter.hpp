@@ -77,8 +77,8 @@ ProjectionFilter<PointT>::randomSamples(const PackedCloud& packed) const
   for (std::size_t i = 0; i < packed.chosen.size(); ++i)
     if (packed.states[i] == PointState::Usable)
       usable.push_back(static_cast<std::uint32_t>(i));
-  const double share = std::round(sample_ratio_ * static_cast<double>(usable.size()));
-  std::vector<std::uint32_t> kept = randomSubset(usable.size(), std::max<std::size_t>(1, static_cast<std::size_t>(share)), seed_);
+  const auto share = static_cast<std::size_t>(std::round(sample_ratio_ * static_cast<double>(usable.size())));
+  std::vector<std::uint32_t> kept = randomSubset(usable.size(), std::max<std::size_t>(1, share), seed_);
   for (std::uint32_t& sample : kept)
     sample = usable[sample];
   return kept;
