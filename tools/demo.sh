@@ -10,9 +10,8 @@ scan=$root/tools/demo/box_scan.ply
 
 sh "$root/tools/install_dependencies.sh"
 
-if ! [ -f "$root/build/release/CMakeCache.txt" ]; then
-  cmake -S "$root" -B "$root/build/release" -G Ninja -DCMAKE_BUILD_TYPE=Release
-fi
+cd "$root"
+cmake --preset release -Wno-dev
 cmake --build "$root/build/release" --target pcl_gpf_tool
 
 mkdir -p "$out"

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <sstream>
 
 namespace pcl_gpf {
 
@@ -26,20 +27,24 @@ endsWith(std::string text, const std::string& ending)
 bool
 isPlyWithFaces(const std::string& path)
 {
-  std::string header(1 << 20, '\0');
   std::ifstream file(path, std::ios::binary);
+  std::string header(1 << 20, '\0');
   file.read(&header[0], static_cast<std::streamsize>(header.size()));
   header.resize(static_cast<std::size_t>(file.gcount()));
   if (header.compare(0, 3, "ply") != 0)
     return false;
-  header.resize(std::min(header.find("end_header"), header.size()));
-  const std::string promise = "element face ";
-  const std::size_t found = header.find("\n" + promise);
-  if (found == std::string::npos)
-    return false;
-  const std::size_t count = found + 1 + promise.size();
-  const std::size_t line_end = std::min(header.find_first_of("\r\n", count), header.size());
-  return header.substr(count, line_end - count).find_first_of("123456789") != std::string::npos;
+  std::replace(header.begin(), header.end(), '\r', '\n'); // any of the three kinds of line end
+  std::istringstream lines(header);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string keyword, name, count;
+    words >> keyword >> name >> count;
+    if (keyword == "end_header")
+      return false;
+    if (keyword == "element" && name == "face")
+      return count.find_first_of("123456789") != std::string::npos;
+  }
+  return false;
 }
 
 bool

@@ -26,4 +26,14 @@ checkRange(const char* name, double value, bool inside, const char* range)
     throw InvalidParameter(std::string(name) + " is " + toText(value) + "; range: " + range);
 }
 
+/** Largest radius in the normalised frame, whose box diagonal is 1: already sees everything with equal weight; keeps squares finite. */
+constexpr double kLargestRadius = 1e6;
+
+/** \brief The radius, or kLargestRadius when it is beyond. */
+inline double
+boundedRadius(double radius)
+{
+  return radius < kLargestRadius ? radius : kLargestRadius;
+}
+
 } // namespace pcl_gpf

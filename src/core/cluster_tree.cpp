@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/cluster_tree.h>
+#include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/parallel.h>
 
 #include <algorithm>
@@ -94,6 +95,18 @@ boxOf(PointsView points, std::size_t begin, std::size_t end)
   return box;
 }
 
+/** The box that the curve fills; points outside it share its border cells. */
+BoundingBox
+curveBox(PointsView points)
+{
+  const FloatBox all = boxOf(points, 0, points.size);
+  BoundingBox box;
+  box.add(all.min[0], all.min[1], all.min[2]);
+  box.add(all.max[0], all.max[1], all.max[2]);
+  const float* axes[3] = {points.x, points.y, points.z};
+  return denseBox(box, points.size, [&](std::size_t i, std::size_t axis) { return static_cast<double>(axes[axis][i]); });
+}
+
 } // namespace
 
 std::vector<std::uint32_t>
@@ -102,15 +115,15 @@ hilbertOrder(PointsView points, std::size_t threads)
   std::vector<std::uint32_t> order(points.size);
   if (points.size == 0)
     return order;
-  const FloatBox box = boxOf(points, 0, points.size);
-  const float extent = std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
-  constexpr float kLastCell = static_cast<float>((1u << kBitsPerAxis) - 1);
-  const float to_cell = extent > 0.0f ? kLastCell / extent : 0.0f;
+  const BoundingBox box = curveBox(points);
+  const double extent = std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
+  constexpr double kLastCell = (1u << kBitsPerAxis) - 1;
+  const double to_cell = extent > 0.0 ? kLastCell / extent : 0.0;
 
   std::vector<std::uint64_t> keys(points.size);
   parallelBlocks(points.size, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
     const auto cell = [&](float p, std::size_t axis) {
-      return static_cast<std::uint32_t>(std::min(kLastCell, (p - box.min[axis]) * to_cell));
+      return static_cast<std::uint32_t>(std::clamp((p - box.min[axis]) * to_cell, 0.0, kLastCell));
     };
     for (std::size_t i = begin; i < end; ++i) {
       keys[i] = hilbertKey({cell(points.x[i], 0), cell(points.y[i], 1), cell(points.z[i], 2)});
@@ -178,7 +191,7 @@ void
 ClusterTree::collectRuns(const FloatBox& box, float radius, std::vector<Run>& runs) const
 {
   if (size_ > 0)
-    descend(levels_.size() - 1, 0, box, radius * radius, runs);
+    descend(levels_.size() - 1, 0, box, std::min(radius * radius, std::numeric_limits<float>::max()), runs); // empty boxes are at infinity
 }
 
 void

@@ -14,9 +14,15 @@ BoundingBox::diagonal() const
 LocalFrame
 localFrame(const BoundingBox& box)
 {
+  return localFrame(box, box);
+}
+
+LocalFrame
+localFrame(const BoundingBox& box, const BoundingBox& dense)
+{
   LocalFrame frame;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    frame.origin[axis] = box.min[axis] + 0.5 * (box.max[axis] - box.min[axis]);
+    frame.origin[axis] = dense.min[axis] + 0.5 * (dense.max[axis] - dense.min[axis]);
   const double diagonal = box.diagonal();
   if (diagonal > 0.0)
     frame.scale = diagonal;

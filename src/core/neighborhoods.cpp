@@ -38,9 +38,12 @@ blockBox(PointsView queries, std::size_t block)
 
 /** A hair more than the radius: boxes are rounded to float, kernels may work in double. */
 float
-reach(double radius)
+reach(double radius, const FloatBox& box)
 {
-  return static_cast<float>(radius * (1.0 + 1e-5) + 1e-6);
+  double farthest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    farthest = std::max({farthest, std::abs(static_cast<double>(box.min[axis])), std::abs(static_cast<double>(box.max[axis]))});
+  return static_cast<float>(radius * (1.0 + 1e-5) + 2e-7 * (farthest + radius));
 }
 
 template <typename RadiusOfBlock>
@@ -54,7 +57,8 @@ refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfB
   std::vector<Run> runs;
   for (std::size_t block = 0; block < blocks; block += stride, ++probes) {
     runs.clear();
-    tree.collectRuns(blockBox(queries, block), radius(block), runs);
+    const FloatBox box = blockBox(queries, block);
+    tree.collectRuns(box, reach(radius(block), box), runs);
     for (const Run& run : runs)
       candidates += static_cast<double>(run.end - run.begin);
   }
@@ -83,7 +87,8 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
     std::vector<Run> one;
     for (std::size_t block = begin; block < end; ++block) {
       one.clear();
-      tree.collectRuns(blockBox(queries, block), radius(block), one);
+      const FloatBox box = blockBox(queries, block);
+      tree.collectRuns(box, reach(radius(block), box), one);
       own.insert(own.end(), one.begin(), one.end());
       result.run_offsets[block + 1] = one.size();
     }
@@ -103,8 +108,7 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
 Neighborhoods
 findNeighborhoods(const ClusterTree& tree, PointsView queries, double radius, std::size_t threads)
 {
-  const float same = reach(radius);
-  return collect(tree, queries, threads, [same](std::size_t) { return same; });
+  return collect(tree, queries, threads, [radius](std::size_t) { return radius; });
 }
 
 Neighborhoods
@@ -113,7 +117,7 @@ findNeighborhoods(const ClusterTree& tree, PointsView queries, const float* radi
   return collect(tree, queries, threads, [&](std::size_t block) {
     const std::size_t begin = block * kQueryBlock;
     const std::size_t end = std::min(queries.size, begin + kQueryBlock);
-    return reach(std::sqrt(static_cast<double>(*std::max_element(radius_sq + begin, radius_sq + end))));
+    return std::sqrt(static_cast<double>(*std::max_element(radius_sq + begin, radius_sq + end)));
   });
 }
 

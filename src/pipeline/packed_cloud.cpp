@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "packed_cloud.h"
 
+#include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/sampling.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <string>
 
 namespace pcl_gpf {
 
@@ -16,6 +19,8 @@ namespace {
 std::vector<std::uint32_t>
 finiteRows(const DenoiseInput& input, LocalFrame& frame)
 {
+  if (input.size > std::numeric_limits<std::uint32_t>::max())
+    throw ExcessiveWork(std::to_string(input.size) + " rows; the limit of one cloud is 2^32 - 1");
   std::vector<std::uint32_t> rows;
   BoundingBox box;
   for (std::size_t i = 0; i < input.size; ++i)
@@ -29,7 +34,8 @@ finiteRows(const DenoiseInput& input, LocalFrame& frame)
     throw UnsuitableData("all points are identical");
   if (!std::isfinite(box.diagonal()))
     throw UnsuitableData("the extent of the points is beyond the range of double");
-  frame = localFrame(box);
+  const double* columns[3] = {input.x, input.y, input.z};
+  frame = localFrame(box, denseBox(box, rows.size(), [&](std::size_t k, std::size_t axis) { return columns[axis][rows[k]]; }));
   return rows;
 }
 

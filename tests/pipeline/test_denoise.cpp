@@ -308,6 +308,38 @@ TEST(Denoise, leavesAnOutlierToTheLastBit)
   EXPECT_EQ(at(result, 2000), (Vector3{2.1, 2.2, 2.3}));
 }
 
+TEST(Denoise, filtersBesideAnOutlierHoweverFarItIs)
+{
+  const Shape shape = cube(4000, 0.01, 3);
+  const Cloud alone(shape);
+  const DenoiseResult expected = denoise(alone.input(), {});
+  for (const double far : {1e3, 1e6, 1e9}) {
+    Cloud cloud(shape);
+    cloud.add({far, far, -far});
+    const DenoiseResult result = denoise(cloud.input(), {});
+    ASSERT_EQ(result.x.size(), alone.size() + 1);
+    EXPECT_EQ(result.x.back(), far);
+    EXPECT_NEAR(result.scale.spacing, expected.scale.spacing, 0.02 * expected.scale.spacing) << far;
+    double sum = 0;
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      sum += std::hypot(result.x[i] - expected.x[i], result.y[i] - expected.y[i], result.z[i] - expected.z[i]);
+    EXPECT_LT(sum / static_cast<double>(alone.size()), 1e-3) << far; // a tenth of the noise; the estimates differ a little
+  }
+}
+
+TEST(Denoise, survivesARadiusBeyondEverything)
+{
+  for (const std::size_t count : {20u, 2000u})
+    for (const double radius : {1e3, 1e15, 1e20, 1e300}) {
+      const Cloud cloud(cube(count, 0.01, 3));
+      DenoiseParameters parameters;
+      parameters.normals.radius = parameters.bilateral.radius = parameters.gpf.support_radius = radius;
+      const DenoiseResult result = denoise(cloud.input(), parameters);
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        ASSERT_TRUE(std::isfinite(result.x[i]) && std::abs(result.x[i]) < 2.0) << radius;
+    }
+}
+
 TEST(Denoise, normalisesForeignNormalsAndEstimatesTheMissing)
 {
   const Shape shape = turned(cube(2000, 0.01, 10));

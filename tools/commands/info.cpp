@@ -105,7 +105,7 @@ infoText(const Json& report)
   std::string fields;
   for (const Json& field : report["fields"]) {
     const auto count = field["count"].get<std::size_t>();
-    fields += "\n  " + field["name"].get<std::string>() + "  " + field["type"].get<std::string>() +
+    fields += "\n  " + printable(field["name"].get<std::string>()) + "  " + field["type"].get<std::string>() +
               (count > 1 ? " x " + std::to_string(count) : "");
   }
   return printable(report["path"].get<std::string>(), 1000) + "\n" +

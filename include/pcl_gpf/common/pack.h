@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/common/abi_check.h>
 #include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/local_frame.h>
 #include <pcl_gpf/core/soa_buffer.h>
 
@@ -83,12 +84,28 @@ chooseAndBox(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices, 
   return packed;
 }
 
+/** Box of the dense part of the usable points. */
+template <typename PointT>
+BoundingBox
+denseBoxOf(const pcl::PointCloud<PointT>& cloud, const PackedCloud& packed, const BoundingBox& box)
+{
+  std::vector<pcl::index_t> usable;
+  usable.reserve(box.count);
+  for (std::size_t i = 0; i < packed.chosen.size(); ++i)
+    if (packed.states[i] == PointState::Usable)
+      usable.push_back(packed.chosen[i]);
+  return denseBox(box, usable.size(), [&](std::size_t k, std::size_t axis) {
+    const PointT& point = cloud[static_cast<std::size_t>(usable[k])];
+    return static_cast<double>(point.data[axis]);
+  });
+}
+
 } // namespace detail
 
 /** \brief Copies the usable points of `indices` into structure-of-arrays form in the normalised frame.
  *
  * The box is found in double. O(size of the cloud) time, 24 bytes a usable point and 5 a chosen one.
- * \throws InvalidParameter if an index is out of range, ExcessiveWork beyond 2^32 - 2 points
+ * \throws InvalidParameter if an index is out of range, ExcessiveWork beyond 2^32 - 2 points (the core takes at most 2^31 - 17)
  */
 template <typename PointT> PackedCloud
 pack(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
@@ -97,7 +114,7 @@ pack(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
   PackedCloud packed = detail::chooseAndBox(cloud, indices, box);
   if (box.count >= std::numeric_limits<std::uint32_t>::max())
     throw ExcessiveWork(std::to_string(box.count) + " points are more than one run can index (2^32 - 2); filter in parts");
-  packed.frame = localFrame(box);
+  packed.frame = localFrame(box, detail::denseBoxOf(cloud, packed, box));
   packed.all_identical = !(box.diagonal() > 0);
   packed.points = SoaBuffer(box.count);
   packed.normals = SoaBuffer(box.count);

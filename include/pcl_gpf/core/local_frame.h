@@ -14,7 +14,7 @@ namespace pcl_gpf {
  * coordinates and makes sigma^2 = 0.004 and every tolerance free of units (paper, Algorithm 1).
  */
 struct LocalFrame {
-  std::array<double, 3> origin{0.0, 0.0, 0.0}; ///< centre of the bounding box, world units
+  std::array<double, 3> origin{0.0, 0.0, 0.0}; ///< centre of the bounding box, or of its dense part, world units
   double scale = 1.0;                          ///< length of the box diagonal, world units, > 0
 
   float toLocal(double world, std::size_t axis) const { return static_cast<float>((world - origin[axis]) / scale); }
@@ -49,5 +49,9 @@ struct BoundingBox {
 /** \brief Frame of a box. \return scale 1 if the diagonal is 0, so that degenerate data map to the origin. */
 PCL_GPF_CORE_EXPORT LocalFrame
 localFrame(const BoundingBox& box);
+
+/** \brief The same scale with the origin in the middle of the dense part (denseBox()), near which floats are finest. */
+PCL_GPF_CORE_EXPORT LocalFrame
+localFrame(const BoundingBox& box, const BoundingBox& dense);
 
 } // namespace pcl_gpf

@@ -16,7 +16,7 @@ resolveThreads(unsigned requested);
  *
  * The blocks do not depend on the number of threads, so a body that writes only its own block's results (or one partial result a
  * block, summed in block order afterwards) gives the same bits for any number. Exceptions of the body are thrown to the caller.
- * Safe to call from several threads at once; a nested call runs serially in place.
+ * Safe to call from several threads at once; from within a body, too.
  */
 PCL_GPF_CORE_EXPORT void
 parallelBlocks(std::size_t count,

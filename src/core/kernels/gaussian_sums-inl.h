@@ -95,10 +95,11 @@ struct MomentSum {
   HWY_INLINE void
   store()
   {
-    hn::StoreU(count, d, a.count + first);
-    storeQueries(d, a.mean, first, mean);
-    storeQueries(d, a.scatter_diagonal, first, diagonal);
-    storeQueries(d, a.scatter_mixed, first, mixed);
+    const std::size_t place = first - a.first_output;
+    hn::StoreU(count, d, a.count + place);
+    storeQueries(d, a.mean, place, mean);
+    storeQueries(d, a.scatter_diagonal, place, diagonal);
+    storeQueries(d, a.scatter_mixed, place, mixed);
   }
 };
 

@@ -94,6 +94,7 @@ struct BilateralNormals {
 struct Moments {
   Vectors<float> queries, data;
   Radius<float> radius;
+  std::size_t first_output = 0; ///< query whose results go to the first place of the arrays below
   float* count = nullptr;
   MutableVectors<float> mean;             ///< sum of d
   MutableVectors<float> scatter_diagonal; ///< xx yy zz

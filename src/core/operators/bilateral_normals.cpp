@@ -137,22 +137,22 @@ filterNormalsBilaterally(const BilateralNormalsParameters& parameters, const Poi
   kernels::BilateralNormals a;
   a.queries = a.data = {view.x, view.y, view.z};
   AlignedArray<float> radius_sq;
-  double longest = parameters.radius;
   if (parameters.neighbors > 0 && count > 0) {
     radius_sq = neighborRadii(points.tree(), view, parameters.neighbors, threads);
     a.radius.per_query = radius_sq.data();
-    longest = std::sqrt(*std::max_element(radius_sq.begin(), radius_sq.begin() + count));
   }
-  a.radius.radius_sq = static_cast<float>(parameters.radius * parameters.radius);
+  const double radius = boundedRadius(parameters.radius);
+  a.radius.radius_sq = static_cast<float>(radius * radius);
   a.angle_falloff = static_cast<float>(1.0 / (1.0 - std::cos(parameters.angle * kPi / 180.0)));
   a.sign_invariant = parameters.sign_invariant;
 
   BilateralNormalsStatistics statistics;
   Neighborhoods near;
   if (parameters.iterations > 0 && count > 0)
-    near = search                     ? transposeLists(search(view, view, longest), count)
-           : parameters.neighbors > 0 ? findNeighborhoods(points.tree(), view, radius_sq.data(), threads)
-                                      : findNeighborhoods(points.tree(), view, parameters.radius, threads);
+    // A foreign search has one radius for all, which for k neighbours would be the longest of the cloud.
+    near = parameters.neighbors > 0 ? findNeighborhoods(points.tree(), view, radius_sq.data(), threads)
+           : search                 ? transposeLists(search(view, view, radius), count)
+                                    : findNeighborhoods(points.tree(), view, radius, threads);
   const kernels::Candidates candidates = candidatesOf(near);
   for (unsigned round = 0; round < parameters.iterations; ++round) {
     if (progress && !progress(static_cast<double>(round) / parameters.iterations))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../check_range.h"
 #include "gpf_solver.h"
 
 #include <pcl_gpf/core/errors.h>
@@ -53,9 +54,11 @@ gpfInit(const GPFParameters& parameters, const GPFInput& input)
   for (std::size_t i = 0; input.samples && i < input.sample_count; ++i)
     if (input.samples[i] >= (input.index ? input.index->size() : input.points.size))
       throw InvalidParameter("a sample index is not below the number of points");
-  if (runsInDouble(parameters))
-    return GPFState(std::make_unique<GPFSolver<double>>(parameters, input));
-  return GPFState(std::make_unique<GPFSolver<float>>(parameters, input));
+  GPFParameters bounded = parameters;
+  bounded.support_radius = boundedRadius(parameters.support_radius);
+  if (runsInDouble(bounded))
+    return GPFState(std::make_unique<GPFSolver<double>>(bounded, input));
+  return GPFState(std::make_unique<GPFSolver<float>>(bounded, input));
 }
 
 IterationStats

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -20,7 +21,6 @@ namespace {
 constexpr std::size_t kFewestNeighbors = 6;
 /** Neighbourhoods for points whose ball holds too few neighbours, or only those of one scan line: the first that spans a plane. */
 constexpr std::array<std::size_t, 3> kNearestInstead = {12, 32, 96};
-constexpr std::size_t kPointsPerTask = 1024;
 /** Second eigenvalue below this share of the largest: the points lie on a line or coincide, no plane is better than another. Moments
  * summed in float and the closed-form eigenvalues resolve about 1e-7. */
 constexpr double kLineRatio = 1e-6;
@@ -99,6 +99,19 @@ fitMoments(const MomentSums& m, std::size_t i)
   return fitPlane(m.count[i], Eigen::Vector3d(m.mean.x[i], m.mean.y[i], m.mean.z[i]), scatter);
 }
 
+kernels::Moments
+momentsInto(MomentSums& sums, PointsView points, double radius)
+{
+  kernels::Moments a;
+  a.queries = a.data = {points.x, points.y, points.z};
+  a.radius.radius_sq = static_cast<float>(radius * radius);
+  a.count = sums.count.data();
+  a.mean = sums.mean.vectors();
+  a.scatter_diagonal = sums.diagonal.vectors();
+  a.scatter_mixed = sums.mixed.vectors();
+  return a;
+}
+
 } // namespace
 
 void
@@ -133,30 +146,26 @@ estimatePlaneNormals(const PlaneNormalsParameters& parameters, const PointIndex&
   checkRange("normal radius", parameters.radius, parameters.radius > 0.0, "> 0");
   const std::size_t threads = resolveThreads(parameters.number_of_threads);
   const PointsView view = points.sorted();
-  MomentSums sums(view.size);
-  kernels::Moments a;
-  a.queries = a.data = {view.x, view.y, view.z};
-  a.radius.radius_sq = static_cast<float>(parameters.radius * parameters.radius);
-  a.count = sums.count.data();
-  a.mean = sums.mean.vectors();
-  a.scatter_diagonal = sums.diagonal.vectors();
-  a.scatter_mixed = sums.mixed.vectors();
-  const Neighborhoods near = findNeighborhoods(points.tree(), view, parameters.radius, threads);
+  const double radius = boundedRadius(parameters.radius);
+  const Neighborhoods near = findNeighborhoods(points.tree(), view, radius, threads);
   const kernels::Candidates candidates = candidatesOf(near);
-  parallelBlocks(blockCount(view.size), kBlocksPerTask, threads,
-                 [&](std::size_t begin, std::size_t end) { kernels::active().moments(candidates, a, begin, end); });
-
-  std::vector<std::size_t> failures((view.size + kPointsPerTask - 1) / kPointsPerTask);
-  parallelBlocks(view.size, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+  const std::size_t blocks = blockCount(view.size);
+  std::vector<std::size_t> failures((blocks + kBlocksPerTask - 1) / kBlocksPerTask);
+  parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t first = begin * kQueryBlock, last = std::min(view.size, end * kQueryBlock);
+    MomentSums sums(kBlocksPerTask * kQueryBlock); // of this task alone, so that it is still in the cache when planes are fitted
+    kernels::Moments a = momentsInto(sums, view, radius);
+    a.first_output = first;
+    kernels::active().moments(candidates, a, begin, end);
     std::vector<float> distances_sq;
     std::vector<std::uint32_t> indices;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       PlaneFit fit;
-      if (sums.count[i] >= static_cast<float>(kFewestNeighbors))
-        fit = fitMoments(sums, i);
+      if (sums.count[i - first] >= static_cast<float>(kFewestNeighbors))
+        fit = fitMoments(sums, i - first);
       if (fit.narrow)
         fit = fitNearest(points.tree(), view, i, distances_sq, indices);
-      failures[begin / kPointsPerTask] += !fit.spans_plane;
+      failures[begin / kBlocksPerTask] += !fit.spans_plane;
       normals.x[i] = static_cast<float>(fit.normal[0]);
       normals.y[i] = static_cast<float>(fit.normal[1]);
       normals.z[i] = static_cast<float>(fit.normal[2]);
@@ -164,10 +173,7 @@ estimatePlaneNormals(const PlaneNormalsParameters& parameters, const PointIndex&
         surface_variation[i] = static_cast<float>(fit.surface_variation);
     }
   });
-  std::size_t failed = 0;
-  for (const std::size_t part : failures)
-    failed += part;
-  return failed;
+  return std::accumulate(failures.begin(), failures.end(), std::size_t{0});
 }
 
 } // namespace pcl_gpf

@@ -53,7 +53,7 @@ struct BilateralNormalsStatistics {
  * \param[in] parameters `radius` in the unit of `points`; radius and neighbors not both 0
  * \param[in] points N finite positions, normalised frame
  * \param[in,out] normals N vectors of any length > 0; unit vectors afterwards
- * \param[in] search replaces the built-in neighbour search when set
+ * \param[in] search replaces the built-in neighbour search when set and `neighbors` is 0
  * \throws InvalidParameter, ExcessiveWork, Cancelled
  */
 PCL_GPF_CORE_EXPORT BilateralNormalsStatistics
