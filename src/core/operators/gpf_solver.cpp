@@ -233,79 +233,85 @@ GPFSolver<Real>::evaluateRepulsion()
   return sums;
 }
 
+/** Eq. 10 for one sample: the mean pull of the data, and the mean push of the other samples times mu. */
+template <typename Real>
+typename GPFSolver<Real>::Step
+GPFSolver<Real>::stepOf(std::size_t m, const DataSums& data, const RepulsionSums& repulsion, double mu) const
+{
+  Step step;
+  if (data.weight[m] > Real(0)) {
+    step.x = data.pull.x[m] / data.weight[m];
+    step.y = data.pull.y[m] / data.weight[m];
+    step.z = data.pull.z[m] / data.weight[m];
+  }
+  if (!(mu > 0.0) || !(repulsion.weight[m] > Real(0)))
+    return step;
+  const Real scale = static_cast<Real>(mu) / repulsion.weight[m];
+  Real x = scale * repulsion.push.x[m], y = scale * repulsion.push.y[m], z = scale * repulsion.push.z[m];
+  if (parameters.own_tangent_repulsion) {
+    const SortedVectors<Real>& n = cloud_.sampleNormals();
+    const Real height = x * n.x[m] + y * n.y[m] + z * n.z[m];
+    x -= height * n.x[m];
+    y -= height * n.y[m];
+    z -= height * n.z[m];
+  }
+  step.x += x;
+  step.y += y;
+  step.z += z;
+  return step;
+}
+
 template <typename Real>
 IterationStats
 GPFSolver<Real>::move(const DataSums& data, const RepulsionSums& repulsion)
 {
   constexpr std::size_t kPointsPerTask = 8192; // fixed, so that sums do not depend on the number of threads
-  struct Partial {
-    double movement = 0, longest = 0, posterior = 0, residual = 0;
-    std::size_t isolated = 0;
-  };
   SortedVectors<Real>& samples = cloud_.samples();
-  const std::size_t count = samples.size();
   const double mu = repulsion.weight.empty() ? 0.0 : repulsionWeight();
   const bool variance = !data.posterior.empty();
-  const SortedVectors<Real>& own_normals = cloud_.sampleNormals();
-  std::vector<Partial> partials((count + kPointsPerTask - 1) / kPointsPerTask);
-  parallelBlocks(count, kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
-    Partial& sum = partials[begin / kPointsPerTask];
+  std::vector<MoveSums> partials((samples.size() + kPointsPerTask - 1) / kPointsPerTask);
+  parallelBlocks(samples.size(), kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    MoveSums& sum = partials[begin / kPointsPerTask];
     for (std::size_t m = begin; m < end; ++m) {
-      Real x = 0, y = 0, z = 0;
+      const Step step = stepOf(m, data, repulsion, mu);
       isolated_[m] = !(data.weight[m] > Real(0));
-      if (!isolated_[m]) {
-        x = data.pull.x[m] / data.weight[m];
-        y = data.pull.y[m] / data.weight[m];
-        z = data.pull.z[m] / data.weight[m];
-      }
-      if (mu > 0.0 && repulsion.weight[m] > Real(0)) {
-        const Real scale = static_cast<Real>(mu) / repulsion.weight[m];
-        Real px = scale * repulsion.push.x[m], py = scale * repulsion.push.y[m], pz = scale * repulsion.push.z[m];
-        if (parameters.own_tangent_repulsion) {
-          const Real nx = own_normals.x[m], ny = own_normals.y[m], nz = own_normals.z[m];
-          const Real height = px * nx + py * ny + pz * nz;
-          px -= height * nx;
-          py -= height * ny;
-          pz -= height * nz;
-        }
-        x += px;
-        y += py;
-        z += pz;
-      }
-      if (variance) {
-        sum.posterior += data.posterior[m];
-        sum.residual += data.residualAfter(m, x, y, z);
-      } else
-        sum.posterior += data.weight[m];
       sum.isolated += isolated_[m];
-      samples.x[m] += x;
-      samples.y[m] += y;
-      samples.z[m] += z;
-      const double length = std::sqrt(static_cast<double>(x) * x + static_cast<double>(y) * y + static_cast<double>(z) * z);
+      sum.posterior += variance ? data.posterior[m] : data.weight[m];
+      if (variance)
+        sum.residual += data.residualAfter(m, step.x, step.y, step.z);
+      samples.x[m] += step.x;
+      samples.y[m] += step.y;
+      samples.z[m] += step.z;
+      const double x = step.x, y = step.y, z = step.z;
+      const double length = std::sqrt(x * x + y * y + z * z);
       sum.movement += length;
       sum.longest = std::max(sum.longest, length);
     }
   });
+  MoveSums total;
+  for (const MoveSums& partial : partials)
+    total.add(partial);
+  return finishIteration(total);
+}
 
+/** Statistics, the next sigma^2 (eq. 11), and how far the candidate lists have aged. */
+template <typename Real>
+IterationStats
+GPFSolver<Real>::finishIteration(const MoveSums& total)
+{
   IterationStats stats;
-  double residual = 0.0;
-  for (const Partial& partial : partials) {
-    stats.mean_movement += partial.movement;
-    stats.max_movement = std::max(stats.max_movement, partial.longest);
-    stats.posterior_sum += partial.posterior;
-    stats.isolated_points += partial.isolated;
-    residual += partial.residual;
-  }
-  stats.mean_movement /= static_cast<double>(std::max<std::size_t>(1, count));
+  stats.mean_movement = total.movement / static_cast<double>(std::max<std::size_t>(1, size()));
+  stats.max_movement = total.longest;
+  stats.posterior_sum = total.posterior;
+  stats.isolated_points = total.isolated;
   stats.variance = variance_;
-  if (variance && stats.posterior_sum > 0.0) {
+  if (parameters.variance_update != VarianceUpdate::Fixed && total.posterior > 0.0) {
     const double degrees_of_freedom = parameters.variance_update == VarianceUpdate::Paper ? 3.0 : 1.0;
-    variance_ = std::max(kLeastVariance, residual / (degrees_of_freedom * stats.posterior_sum)); // eq. 11
+    variance_ = std::max(kLeastVariance, total.residual / (degrees_of_freedom * total.posterior));
   }
   stats.next_variance = variance_;
-  data_neighborhoods_.addMovement(stats.max_movement);
-  posterior_neighborhoods_.addMovement(stats.max_movement);
-  repulsion_neighborhoods_.addMovement(stats.max_movement);
+  for (MovingNeighborhoods* lists : {&data_neighborhoods_, &posterior_neighborhoods_, &repulsion_neighborhoods_})
+    lists->addMovement(stats.max_movement);
   return stats;
 }
 

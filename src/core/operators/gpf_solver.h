@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "../moving_neighborhoods.h"
 #include "gpf_points.h"
 
 #include <pcl_gpf/core/cluster_tree.h>
@@ -27,35 +28,6 @@ struct GPFState::Implementation {
   normals(MutableVectorsView out) const = 0;
   virtual std::vector<std::uint8_t>
   isolated() const = 0;
-};
-
-/** Candidates that stay valid while points move less than a slack. */
-class MovingNeighborhoods {
-public:
-  /** \param[in] moving_sides 1 if only queries or only data move, 2 if both do */
-  MovingNeighborhoods(double radius, double moving_sides) : radius_(radius), moving_sides_(moving_sides) {}
-
-  bool stale() const { return !built_ || moving_sides_ * moved_ > slack(); }
-  double reach() const { return radius_ + slack(); }
-  void
-  set(Neighborhoods neighborhoods)
-  {
-    neighborhoods_ = std::move(neighborhoods);
-    built_ = true;
-    moved_ = 0.0;
-  }
-  void addMovement(double longest) { moved_ += longest; }
-  const Neighborhoods& get() const { return neighborhoods_; }
-
-private:
-  /** A tenth of the radius: about 20 % more candidates against lists built anew in every iteration. */
-  double slack() const { return 0.1 * radius_; }
-
-  double radius_;
-  double moving_sides_;
-  double moved_ = 0.0;
-  bool built_ = false;
-  Neighborhoods neighborhoods_;
 };
 
 /** The recursion of Algorithm 1 on points sorted along a Hilbert curve. */
@@ -92,6 +64,24 @@ public:
 private:
   struct DataSums;
   struct RepulsionSums;
+  struct Step {
+    Real x = 0, y = 0, z = 0;
+  };
+  /** Sums over samples of one iteration. */
+  struct MoveSums {
+    double movement = 0, longest = 0, posterior = 0, residual = 0;
+    std::size_t isolated = 0;
+
+    void
+    add(const MoveSums& other)
+    {
+      movement += other.movement;
+      longest = other.longest > longest ? other.longest : longest;
+      posterior += other.posterior;
+      residual += other.residual;
+      isolated += other.isolated;
+    }
+  };
 
   void
   evaluateDensities();
@@ -101,8 +91,12 @@ private:
   evaluateDataTerm();
   RepulsionSums
   evaluateRepulsion();
+  Step
+  stepOf(std::size_t m, const DataSums& data, const RepulsionSums& repulsion, double mu) const;
   IterationStats
   move(const DataSums& data, const RepulsionSums& repulsion);
+  IterationStats
+  finishIteration(const MoveSums& total);
   double
   repulsionWeight() const;
   void
