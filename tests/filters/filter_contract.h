@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#ifdef PCL_GPF_TEST_CUSTOM_POINT
+#include "filters/scanner_point.h"
+#endif
 #include "support/clouds.h"
 
 #include <pcl_gpf/filters/bilateral_normal_filter.h>
@@ -34,13 +37,18 @@ struct ContractOf<BilateralNormalFilter<PointT>> {
   static void setInvalidParameter(BilateralNormalFilter<PointT>& filter) { filter.setRadius(-1); }
 };
 
-/** \brief Every filter with every point type; the place to add a new filter. */
+#ifdef PCL_GPF_TEST_CUSTOM_POINT
+/** \brief Every filter with a point type of the user's own; the place to add a new filter. */
+using ContractFilters = ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>>;
+#else
+/** \brief Every filter with every compiled point type; the place to add a new filter. */
 using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
                                          GPF<pcl::PointXYZRGBNormal>,
                                          GPF<pcl::PointXYZINormal>,
                                          BilateralNormalFilter<pcl::PointNormal>,
                                          BilateralNormalFilter<pcl::PointXYZRGBNormal>,
                                          BilateralNormalFilter<pcl::PointXYZINormal>>;
+#endif
 
 /** \brief A filter made ready for clouds of the size of the unit cube, and clouds for it. */
 template <typename FilterT>

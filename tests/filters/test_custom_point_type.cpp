@@ -5,27 +5,12 @@
 #include <pcl_gpf/filters/bilateral_normal_filter.h>
 #include <pcl_gpf/filters/gpf.h>
 
+#include "filters/scanner_point.h"
 #include "support/shapes.h"
 
 #include <gtest/gtest.h>
 
-#include <pcl/impl/pcl_base.hpp>
-#include <pcl/point_types.h>
-#include <pcl/register_point_struct.h>
-
 #include <cmath>
-
-struct EIGEN_ALIGN16 ScannerPoint {
-  PCL_ADD_POINT4D;
-  PCL_ADD_NORMAL4D;
-  double time = 0;
-  std::uint16_t ring = 0;
-  PCL_MAKE_ALIGNED_OPERATOR_NEW
-};
-
-POINT_CLOUD_REGISTER_POINT_STRUCT(ScannerPoint,
-                                  (float, x, x)(float, y, y)(float, z, z)(float, normal_x, normal_x)(float, normal_y, normal_y)(
-                                      float, normal_z, normal_z)(double, time, time)(std::uint16_t, ring, ring))
 
 namespace pcl_gpf::test {
 namespace {
