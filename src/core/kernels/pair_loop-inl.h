@@ -262,7 +262,7 @@ expNonPositive(D d, hn::Vec<D> x)
   return hn::IfThenZeroElse(underflow, scaled);
 }
 
-/** exp(x) for -1 <= x <= 0, relative error below 1e-6: a polynomial alone, half the work of the whole range. */
+/** exp(x) for -1 <= x <= 0, relative error below 1.1e-6: a polynomial alone, half the work of the whole range. */
 template <class D>
 HWY_INLINE hn::Vec<D>
 expGentle(D d, hn::Vec<D> x)

@@ -294,8 +294,8 @@ forEveryCase(const Visit& visit)
     for (unsigned bits = 0; bits < 12; ++bits)
       visit(ProjectionCase<Real>{{per_query}, (bits & 1) != 0, (bits & 2) != 0, bits >= 4, bits >= 8});
     // Falloffs up to 1 take the short exponential in float.
-    visit(ProjectionCase<Real>{{per_query, 1e-6}, true, true, false, false, 0.5});
-    visit(ProjectionCase<Real>{{per_query, 1e-6}, false, false, false, false, 1.0});
+    visit(ProjectionCase<Real>{{per_query, 1.1e-6}, true, true, false, false, 0.5});
+    visit(ProjectionCase<Real>{{per_query, 1.1e-6}, false, false, false, false, 1.0});
     for (const bool weighted : {false, true})
       visit(RepulsionCase<Real>{{per_query}, weighted});
     if constexpr (std::is_same<Real, float>::value) {
