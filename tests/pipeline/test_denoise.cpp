@@ -306,6 +306,22 @@ TEST(Denoise, leavesAnOutlierToTheLastBit)
   cloud.add({2.1, 2.2, 2.3});
   const DenoiseResult result = denoise(cloud.input(), {});
   EXPECT_EQ(at(result, 2000), (Vector3{2.1, 2.2, 2.3}));
+  EXPECT_EQ(result.isolated[2000], 1);
+  EXPECT_EQ(std::count(result.isolated.begin(), result.isolated.end(), std::uint8_t{1}), 1);
+  EXPECT_EQ(result.iterations.back().isolated_points, 1u);
+}
+
+TEST(Denoise, countsIsolatedPointsInEveryMode)
+{
+  Cloud cloud(turned(sphere(2000, 0.01, 9)));
+  for (int i = 0; i < 3; ++i)
+    cloud.add({2.0 + i, 2.2, 2.3});
+  DenoiseParameters exact; // runs in double
+  exact.gpf.posterior_normalization = exact.gpf.density_weights = true;
+  EXPECT_EQ(denoise(cloud.input(), exact).iterations.back().isolated_points, 3u);
+  DenoiseParameters weighted;
+  weighted.gpf.density_weights = true;
+  EXPECT_EQ(denoise(cloud.input(), weighted).iterations.back().isolated_points, 3u);
 }
 
 TEST(Denoise, filtersBesideAnOutlierHoweverFarItIs)

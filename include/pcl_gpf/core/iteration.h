@@ -14,7 +14,7 @@ struct IterationStats {
   double mean_movement = 0;         ///< mean |x_new - x_old|
   double max_movement = 0;          ///< max |x_new - x_old|
   double posterior_sum = 0;         ///< N_p, sum of all posteriors (eq. 4); sum of all data weights where no posterior is formed
-  std::size_t isolated_points = 0;  ///< points without any data weight; they stay where they are
+  std::size_t isolated_points = 0;  ///< points whose data are at most the input point that seeded them; nothing filters them
   double seconds = 0;
 };
 

@@ -13,7 +13,7 @@ namespace pcl_gpf {
 /** \brief What GPF did, after filter(). */
 struct GPFStatistics : FilterStatistics {
   std::vector<IterationStats> iterations; ///< variance in the normalised frame, movements in cloud units
-  std::size_t isolated_points = 0;        ///< points of X without data in reach in the last iteration; they did not move
+  std::size_t isolated_points = 0;        ///< points of X whose only data in the last iteration were their own seeds
   double support_radius = 0;              ///< h that was used, cloud units
   bool support_radius_estimated = false;
 };

@@ -41,7 +41,7 @@ struct DenoiseResult {
   std::vector<double> x, y, z;
   std::vector<float> normal_x, normal_y, normal_z;
   std::vector<std::uint32_t> sample_indices; ///< row of the input that seeded each output point, ascending
-  std::vector<std::uint8_t> isolated;        ///< 1 = no data in reach, point left where it was
+  std::vector<std::uint8_t> isolated;        ///< 1 = no data in reach but the point itself: nothing filtered it
 
   CloudScale scale;                          ///< of the input, cloud units
   std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units

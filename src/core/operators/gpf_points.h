@@ -36,6 +36,8 @@ public:
   }
   /** Rank of sorted sample s in the caller's order. */
   std::size_t rankOf(std::size_t s) const { return sample_order_[s]; }
+  /** Sorted point that seeded sorted sample s. */
+  std::size_t seedOf(std::size_t s) const { return seeds_.empty() ? s : seeds_[s]; }
 
   void
   positions(MutableVectorsView out) const;
@@ -47,7 +49,6 @@ public:
 private:
   void
   sortSamples(const GPFInput& input, PointsView positions, const std::vector<std::uint32_t>& order);
-  std::size_t seedOf(std::size_t s) const { return seeds_.empty() ? s : seeds_[s]; }
 
   std::unique_ptr<PointIndex> own_index_; ///< when the caller gave none
   const PointIndex* index_;

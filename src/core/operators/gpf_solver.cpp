@@ -233,6 +233,25 @@ GPFSolver<Real>::evaluateRepulsion()
   return sums;
 }
 
+/** Whether a sample's data are nothing but the input point that seeded it; `weight` is the sum of its data weights. */
+template <typename Real>
+bool
+GPFSolver<Real>::isIsolated(std::size_t m, double weight) const
+{
+  constexpr double kRounding = 1e-4; // of the short exponential and of sums in float
+  const std::size_t seed = cloud_.seedOf(m);
+  const kernels::Vectors<Real> from = cloud_.points();
+  const SortedVectors<Real>& samples = cloud_.samples();
+  const double x = samples.x[m] - from.x[seed], y = samples.y[m] - from.y[seed], z = samples.z[m] - from.z[seed];
+  const double distance_sq = x * x + y * y + z * z;
+  if (!(distance_sq < data_radius_ * data_radius_))
+    return !(weight > 0.0);
+  double own = std::exp(-distance_sq / (2.0 * variance_)); // the seed's normal is the sample's: full weight
+  if (!point_weight_.empty())
+    own *= static_cast<double>(point_weight_[seed]) * static_cast<double>(inverse_density_[seed]);
+  return !(weight > own * (1.0 + kRounding));
+}
+
 /** Eq. 10 for one sample: the mean pull of the data, and the mean push of the other samples times mu. */
 template <typename Real>
 typename GPFSolver<Real>::Step
@@ -274,7 +293,7 @@ GPFSolver<Real>::move(const DataSums& data, const RepulsionSums& repulsion)
     MoveSums& sum = partials[begin / kPointsPerTask];
     for (std::size_t m = begin; m < end; ++m) {
       const Step step = stepOf(m, data, repulsion, mu);
-      isolated_[m] = !(data.weight[m] > Real(0));
+      isolated_[m] = isIsolated(m, static_cast<double>(data.weight[m]));
       sum.isolated += isolated_[m];
       sum.posterior += variance ? data.posterior[m] : data.weight[m];
       if (variance)

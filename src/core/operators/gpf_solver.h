@@ -91,6 +91,8 @@ private:
   evaluateDataTerm();
   RepulsionSums
   evaluateRepulsion();
+  bool
+  isIsolated(std::size_t m, double weight) const;
   Step
   stepOf(std::size_t m, const DataSums& data, const RepulsionSums& repulsion, double mu) const;
   IterationStats

@@ -51,7 +51,7 @@ public:
   /** \brief Writes the normals of X in the same order (their seeds' normals). */
   void
   normals(MutableVectorsView out) const;
-  /** \brief For each sample 1 if the last step found no data weight for it, else 0. */
+  /** \brief For each sample 1 if the last step found no data for it but the input point that seeded it, else 0. */
   std::vector<std::uint8_t>
   isolated() const;
 
