@@ -49,8 +49,9 @@ measureScale(const PointIndex& points, unsigned number_of_threads)
   box.add(bounds.max[0], bounds.max[1], bounds.max[2]);
   scale.diagonal = box.diagonal();
   scale.h0 = scale.diagonal / std::sqrt(static_cast<double>(points.size()));
-  scale.spacing = estimateSpacing(points, number_of_threads);
-  scale.noise = estimateNoise(points, scale.spacing, number_of_threads);
+  const double apparent_spacing = estimateSpacing(points, number_of_threads);
+  scale.noise = estimateNoise(points, apparent_spacing, number_of_threads);
+  scale.spacing = spacingWithoutNoise(apparent_spacing, scale.noise);
   return scale;
 }
 

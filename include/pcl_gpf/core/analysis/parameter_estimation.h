@@ -15,7 +15,7 @@ namespace pcl_gpf {
 
 /** \brief What is known of a cloud before it is filtered, in the unit of its points. */
 struct CloudScale {
-  double spacing = 0;  ///< estimateSpacing()
+  double spacing = 0;  ///< estimateSpacing(), less what noise adds to it
   double noise = 0;    ///< estimateNoise(), standard deviation along the normal
   double diagonal = 0; ///< of the bounding box
   double h0 = 0;       ///< the paper's unit, diagonal / sqrt(N)
