@@ -39,10 +39,16 @@ constexpr double kTrimmedDeviation = 0.924;
 
 using Point = std::array<float, 3>;
 
+double
+lengthSq(const Offset& p)
+{
+  return p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+}
+
 /** Storage of one task. */
 struct Scratch {
   std::vector<Run> runs;
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Offset> points;
   std::vector<float> distances_sq;
   std::vector<std::uint32_t> indices;
   std::size_t level = 0; ///< thinned cloud that served the last probe
@@ -86,7 +92,7 @@ private:
       return patch.deviation;
     if (std::isfinite(guess))
       for (std::size_t axis = 0; axis < 3; ++axis)
-        center[axis] += static_cast<float>(patch.foot[static_cast<Eigen::Index>(axis)]);
+        center[axis] += static_cast<float>(patch.foot[axis]);
     const double luck = 1.0 - kLuck / std::sqrt(2.0 * static_cast<double>(patch.count - 6));
     return patch.deviation / luck / (std::isfinite(guess) ? kTrimmedDeviation : 1.0);
   }
@@ -95,7 +101,7 @@ private:
   bool
   fitBall(const Point& center, double guess, Scratch& scratch, SurfacePatch& patch) const
   {
-    std::vector<Eigen::Vector3d>& found = scratch.points;
+    std::vector<Offset>& found = scratch.points;
     double radius = kRadius * guess;
     std::size_t level = std::min(scratch.level + 1, thinned_.size() - 1);
     thinned_.collect(level, center, radius, scratch.runs, found);
@@ -118,16 +124,16 @@ private:
   double
   widen(const Point& center, double guess, Scratch& scratch) const
   {
-    std::vector<Eigen::Vector3d>& found = scratch.points;
+    std::vector<Offset>& found = scratch.points;
     thinned_.collect(0, center, kWidestRadius * guess, scratch.runs, found);
     if (found.size() <= kWantedPoints)
       return kWidestRadius * guess;
     const auto last = found.begin() + static_cast<std::ptrdiff_t>(kWantedPoints);
-    std::nth_element(found.begin(), last, found.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-      return a.squaredNorm() < b.squaredNorm();
+    std::nth_element(found.begin(), last, found.end(), [](const Offset& a, const Offset& b) {
+      return lengthSq(a) < lengthSq(b);
     });
     found.resize(kWantedPoints + 1);
-    return found.back().norm();
+    return std::sqrt(lengthSq(found.back()));
   }
 
   SurfacePatch
@@ -139,7 +145,7 @@ private:
       points_.tree().nearest(view, center, count, scratch.distances_sq, &scratch.indices);
       scratch.points.clear();
       for (const std::uint32_t i : scratch.indices)
-        scratch.points.emplace_back(view.x[i] - center[0], view.y[i] - center[1], view.z[i] - center[2]);
+        scratch.points.push_back({view.x[i] - center[0], view.y[i] - center[1], view.z[i] - center[2]});
       patch = fitSurfacePatch(scratch.points, std::sqrt(scratch.distances_sq.back()), guess);
     }
     return patch;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
 namespace pcl_gpf {
@@ -21,6 +22,12 @@ constexpr double kFirstWindow = 4.0 / 3.0;
 constexpr double kNarrowRatio = 0.15;
 
 using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+Eigen::Map<const Eigen::Vector3d>
+vector(const Offset& p)
+{
+  return Eigen::Map<const Eigen::Vector3d>(p.data());
+}
 
 /** Second-degree terms of the place of a point in its plane; the height is in row 0. */
 Terms
@@ -39,15 +46,15 @@ struct PrincipalFrame {
 
 /** \return axes of zeros when all points coincide */
 PrincipalFrame
-principalFrame(const std::vector<Eigen::Vector3d>& points)
+principalFrame(const std::vector<Offset>& points)
 {
   PrincipalFrame frame{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), true};
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points)
-    frame.mean += p;
+  for (const Offset& p : points)
+    frame.mean += vector(p);
   frame.mean /= static_cast<double>(points.size());
-  for (const Eigen::Vector3d& p : points)
-    scatter.noalias() += (p - frame.mean) * (p - frame.mean).transpose();
+  for (const Offset& p : points)
+    scatter.noalias() += (vector(p) - frame.mean) * (vector(p) - frame.mean).transpose();
   if (!(scatter.trace() > 0.0))
     return frame;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -80,7 +87,7 @@ fitHeights(const std::vector<Eigen::Vector3d>& points, double window, Terms& sur
 } // namespace
 
 SurfacePatch
-fitSurfacePatch(const std::vector<Eigen::Vector3d>& points, double radius, double noise)
+fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise)
 {
   SurfacePatch patch;
   const PrincipalFrame frame = principalFrame(points);
@@ -92,8 +99,8 @@ fitSurfacePatch(const std::vector<Eigen::Vector3d>& points, double radius, doubl
   const double lateral_sq = std::isfinite(noise) ? 1.0 - trim * trim : std::numeric_limits<double>::infinity();
   std::vector<Eigen::Vector3d> inside; // in units of the radius: heights, then the place in the plane
   inside.reserve(points.size());
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d p = frame.axes.transpose() * point / radius;
+  for (const Offset& point : points) {
+    const Eigen::Vector3d p = frame.axes.transpose() * vector(point) / radius;
     if (p[1] * p[1] + p[2] * p[2] <= lateral_sq)
       inside.push_back(p);
   }
@@ -114,7 +121,8 @@ fitSurfacePatch(const std::vector<Eigen::Vector3d>& points, double radius, doubl
     return patch;
   const double tilt = 1.0 / std::sqrt(1.0 + surface[1] * surface[1] + surface[2] * surface[2]);
   patch.deviation = radius * tilt * std::sqrt(sum_sq / static_cast<double>(patch.count - kTerms));
-  patch.foot = frame.axes.col(0) * (surface[0] * radius);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    patch.foot[axis] = frame.axes(static_cast<Eigen::Index>(axis), 0) * surface[0] * radius;
   return patch;
 }
 

@@ -29,7 +29,7 @@ ThinnedClouds::ThinnedClouds(const PointIndex& points, std::size_t threads) : wh
 
 void
 ThinnedClouds::collect(std::size_t level, const std::array<float, 3>& center, double radius, std::vector<Run>& runs,
-                       std::vector<Eigen::Vector3d>& found) const
+                       std::vector<Offset>& found) const
 {
   const PointsView points = level == 0 ? whole_.sorted() : thinned_[level - 1].points.view();
   const ClusterTree& tree = level == 0 ? whole_.tree() : thinned_[level - 1].tree;
@@ -41,7 +41,7 @@ ThinnedClouds::collect(std::size_t level, const std::array<float, 3>& center, do
     for (std::size_t i = run.begin; i < run.end; ++i) {
       const float x = points.x[i] - center[0], y = points.y[i] - center[1], z = points.z[i] - center[2];
       if (x * x + y * y + z * z <= radius_float * radius_float)
-        found.emplace_back(x, y, z);
+        found.push_back({x, y, z});
     }
 }
 

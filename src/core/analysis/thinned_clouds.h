@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "surface_patch.h"
+
 #include <pcl_gpf/core/cluster_tree.h>
 #include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/soa_buffer.h>
 
 #include <array>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace pcl_gpf {
 
@@ -33,7 +33,7 @@ public:
           const std::array<float, 3>& center,
           double radius,
           std::vector<Run>& runs,
-          std::vector<Eigen::Vector3d>& found) const;
+          std::vector<Offset>& found) const;
 
 private:
   struct Cloud {
