@@ -180,6 +180,7 @@ settle(NoiseProbes& probes, double spacing)
 {
   constexpr double kSettled = 1.03;
   constexpr double kFarFromIt = 1.15;
+  constexpr double kMuchWider = 1.25; // a single growth may be off by chance
   double noise = probes.measure(kUnknown, kCoarseStep);
   double least_growth = kFarFromIt;
   double nearest_noise = 0.0;
@@ -189,7 +190,7 @@ settle(NoiseProbes& probes, double spacing)
       least_growth = growth;
       nearest_noise = noise;
     }
-    else if (growth > kFarFromIt && nearest_noise > 2.0 * spacing)
+    else if (growth > kFarFromIt && noise > kMuchWider * nearest_noise && nearest_noise > 2.0 * spacing)
       return nearest_noise; // parts hardly wider than the noise: no scale settles, this one came nearest to it
     noise = nextGuess(noise, growth);
     if (growth < kSettled && growth > 1.0 / kSettled)
