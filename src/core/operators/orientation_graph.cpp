@@ -15,10 +15,13 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 1024;
 constexpr double kPi = 3.14159265358979323846;
-/** Offsets count by |d|^2 / (|d|^2 + this many noise^2): two points of one sheet differ by 2 noise^2 along its normal. */
+/** Offsets count as far as they are longer than noise and spacing: half where |d|^2 = 8 noise^2 + 2 spacing^2. Two points of one sheet
+ * differ by 2 noise^2 along its normal; the spacing keeps stray points beside an edge from turning. */
 constexpr double kNoiseShare = 8.0;
-
+constexpr double kSpacingShare = 2.0;
 constexpr std::size_t kMostProbes = 4096;
+/** The noise is looked for among this many times the neighbours that vote, since a ball of few neighbours ends before the noise does. */
+constexpr std::size_t kNoiseNeighbors = 4;
 /** Median of the squared difference of two normal deviates of variance 1. */
 constexpr double kMedianOfOffsets = 0.91;
 
@@ -30,23 +33,32 @@ medianOf(std::vector<float>& values)
   return *middle;
 }
 
+/** Squared spacing of an even surface of which a ball of this squared radius holds k points. */
+double
+spacingSq(float radius_sq, std::size_t k)
+{
+  return radius_sq * kPi / static_cast<double>(k);
+}
+
+/** Squared length from which on an offset between neighbours counts for more than half. */
+float
+countingLengthSq(double noise, float radius_sq, std::size_t k)
+{
+  return static_cast<float>(kNoiseShare * noise * noise + kSpacingShare * spacingSq(radius_sq, k));
+}
+
 /** Relative sign of the normals of two neighbours. */
 std::int16_t
-vote(PointsView p, NormalsView n, std::size_t i, std::size_t j, float damping)
+vote(PointsView p, NormalsView n, std::size_t i, std::size_t j, float counting_sq)
 {
   const float dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i], dz = p.z[j] - p.z[i];
   const float along_i = n.x[i] * dx + n.y[i] * dy + n.z[i] * dz;
   const float along_j = n.x[j] * dx + n.y[j] * dy + n.z[j] * dz;
   const float cosine = n.x[i] * n.x[j] + n.y[i] * n.y[j] + n.z[i] * n.z[j];
-  const float length_sq = dx * dx + dy * dy + dz * dz + damping;
-  const float mirrored = length_sq > 0.0f ? cosine - 2.0f * along_i * along_j / length_sq : cosine;
+  const float length_sq = dx * dx + dy * dy + dz * dz;
+  const float relative = length_sq > 0.0f ? counting_sq / length_sq : 0.0f;
+  const float mirrored = length_sq > 0.0f ? cosine - 2.0f * along_i * along_j / (length_sq * (1.0f + relative * relative)) : cosine;
   return static_cast<std::int16_t>(std::lround(std::clamp(mirrored, -1.0f, 1.0f) * kFullVote));
-}
-
-float
-dampingOf(double noise)
-{
-  return static_cast<float>(kNoiseShare * noise * noise);
 }
 
 /** The nearest point of another part for each query of one block; the block's own index when there is none. */
@@ -85,7 +97,7 @@ noiseAlongNormals(const PointIndex& points, NormalsView normals, std::size_t k, 
     std::vector<std::uint32_t> indices;
     for (std::size_t probe = begin; probe < end; ++probe) {
       const std::size_t i = probe * p.size / probes;
-      points.tree().nearest(p, {p.x[i], p.y[i], p.z[i]}, k + 1, offsets_sq, &indices);
+      points.tree().nearest(p, {p.x[i], p.y[i], p.z[i]}, kNoiseNeighbors * k + 1, offsets_sq, &indices);
       for (std::size_t e = 0; e < indices.size(); ++e) {
         const std::size_t j = indices[e];
         const float along = normals.x[i] * (p.x[j] - p.x[i]) + normals.y[i] * (p.y[j] - p.y[i]) + normals.z[i] * (p.z[j] - p.z[i]);
@@ -102,7 +114,6 @@ neighborVotes(const PointIndex& points, NormalsView normals, std::size_t k, doub
 {
   const PointsView view = points.sorted();
   const std::size_t degree = std::min(k, view.size - 1);
-  const float damping = dampingOf(noise);
   VoteGraph graph;
   graph.radius_sq.resize(view.size);
   graph.rows.offsets.resize(view.size + 1);
@@ -118,9 +129,10 @@ neighborVotes(const PointIndex& points, NormalsView normals, std::size_t k, doub
       graph.radius_sq[i] = distances_sq.back();
       // Among many coincident points the point itself may be missing from its neighbours: then the last one is left out.
       indices.erase(std::find(indices.begin(), indices.end() - 1, static_cast<std::uint32_t>(i)));
+      const float counting_sq = countingLengthSq(noise, graph.radius_sq[i], degree);
       for (std::size_t e = 0; e < degree; ++e) {
         graph.rows.neighbors[i * degree + e] = indices[e];
-        graph.rows.votes[i * degree + e] = vote(view, normals, i, indices[e], damping);
+        graph.rows.votes[i * degree + e] = vote(view, normals, i, indices[e], counting_sq);
       }
     }
   });
@@ -132,9 +144,10 @@ gapVotes(const PointIndex& points, NormalsView normals, const std::vector<float>
          const std::vector<std::uint32_t>& part, double gap, double noise, std::size_t threads)
 {
   const PointsView view = points.sorted();
+  const std::size_t degree = std::min(k, view.size - 1);
   std::vector<float> reach_sq(view.size);
   for (std::size_t i = 0; i < view.size; ++i)
-    reach_sq[i] = static_cast<float>(radius_sq[i] * gap * gap * kPi / static_cast<double>(k));
+    reach_sq[i] = static_cast<float>(gap * gap * spacingSq(radius_sq[i], degree));
   const Neighborhoods near = findNeighborhoods(points.tree(), view, reach_sq.data(), threads);
   std::vector<std::uint32_t> nearest(view.size);
   parallelBlocks(near.run_offsets.size() - 1, 32, threads, [&](std::size_t first, std::size_t last) {
@@ -151,7 +164,7 @@ gapVotes(const PointIndex& points, NormalsView normals, const std::vector<float>
   for (std::size_t i = 0; i < view.size; ++i) {
     if (nearest[i] != i) {
       rows.neighbors.push_back(nearest[i]);
-      rows.votes.push_back(vote(view, normals, i, nearest[i], dampingOf(noise)));
+      rows.votes.push_back(vote(view, normals, i, nearest[i], countingLengthSq(noise, radius_sq[i], degree)));
     }
     rows.offsets.push_back(rows.neighbors.size());
   }

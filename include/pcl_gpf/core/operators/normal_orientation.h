@@ -48,11 +48,11 @@ struct NormalOrientationStatistics {
 
 /** \brief Gives normals consistent signs: only signs change, never directions.
  *
- * Neighbours vote for their relative sign: n_i.n_j - 2 (n_i.d)(n_j.d) / (|d|^2 + 8 noise^2), d = p_j - p_i. That is Hoppe's
- * n_i.n_j with n_i mirrored in the plane between the points (Xie), so that creases of more than 90 degrees and facing sheets count
- * rightly, as far as d stands out of the noise. A maximum spanning tree is then grown as Boruvka does, but votes between pieces that
- * have grown together are added up, so that no single bad pair decides for a whole face; a last round lets every point follow the
- * majority of its neighbours. The side of each connected part:
+ * Neighbours vote for their relative sign: n_i.n_j - 2 (n_i.d)(n_j.d) / |d|^2 c, d = p_j - p_i. That is Hoppe's n_i.n_j with n_i
+ * mirrored in the plane between the points (Xie), so that creases of more than 90 degrees and facing sheets count rightly;
+ * c = 1 / (1 + (l / |d|)^4) leaves the mirror out for offsets shorter than l^2 = 8 noise^2 + 2 spacing^2, which tell nothing.
+ * A maximum spanning tree is then grown as Boruvka does, but votes between pieces that have grown together are added up, so that no
+ * single bad pair decides for a whole face; in the end every point follows the majority of its neighbours. The side of each part:
  * 1. toward `viewpoint`, if given and the part clearly faces it or turns its back;
  * 2. else outward, if the part is closed (its vector area is less than a quarter of its area);
  * 3. else toward `viewpoint` if given; else its highest point (greatest z) gets n_z > 0.
