@@ -6,6 +6,7 @@
 #include "../check_range.h"
 #include "signed_forest.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -16,8 +17,29 @@ namespace {
 constexpr unsigned kMajoritySweeps = 5;
 /** A closed surface has no vector area; a hemisphere has half of its area, a cube without one face a fifth. */
 constexpr double kClosedVectorArea = 0.25;
+/** A point whose neighbours fill a ball this many times as large (squared radius) as those of most of its neighbours is an outlier. */
+constexpr float kOutlierRatio = 25.0f;
 /** Less than this share of the facing area tells nothing: the far and the near side of a closed part cancel. */
 constexpr double kClearMajority = 0.25;
+
+/** Area that each point stands for, in any unit; 0 for outliers, which are not of the surface. */
+std::vector<float>
+pointAreas(const VoteGraph& graph)
+{
+  const std::vector<float>& radius_sq = graph.radius_sq;
+  std::vector<float> area = radius_sq;
+  const auto middle = area.begin() + static_cast<std::ptrdiff_t>(area.size() / 2);
+  std::nth_element(area.begin(), middle, area.end());
+  const float least = *middle > 0.0f ? 1e-3f * *middle : 1.0f; // coincident points fill no area, but count
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    const std::size_t begin = graph.rows.offsets[i], end = graph.rows.offsets[i + 1];
+    std::size_t denser = 0;
+    for (std::size_t e = begin; e < end; ++e)
+      denser += kOutlierRatio * (radius_sq[graph.rows.neighbors[e]] + least) < radius_sq[i];
+    area[i] = 2 * denser > end - begin ? 0.0f : radius_sq[i] + least;
+  }
+  return area;
+}
 
 /** Sums over one part, weighted by the area of each point. */
 struct PartSums {
@@ -43,6 +65,8 @@ sumParts(PointsView p, NormalsView n, const SignedGroups& parts, const std::vect
 {
   std::vector<PartSums> sums(parts.count);
   for (std::size_t i = 0; i < p.size; ++i) {
+    if (area[i] == 0.0f)
+      continue;
     PartSums& s = sums[parts.group[i]];
     const double weight = area[i], sign = parts.sign[i];
     const double position[3] = {p.x[i], p.y[i], p.z[i]}, normal[3] = {n.x[i] * sign, n.y[i] * sign, n.z[i] * sign};
@@ -185,7 +209,7 @@ orientNormals(const NormalOrientationParameters& parameters, const PointIndex& p
     countVotes(gaps, parts, statistics);
   }
   countVotes(graph.rows, parts, statistics);
-  chooseSides(points.sorted(), normals, graph.radius_sq, viewpoint, parts, statistics);
+  chooseSides(points.sorted(), normals, pointAreas(graph), viewpoint, parts, statistics);
   applySigns(parts.sign, normals, statistics);
   report(progress, 1.0);
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -50,7 +50,7 @@ struct NormalOrientationStatistics {
  *
  * Neighbours vote for their relative sign: n_i.n_j - 2 (n_i.d)(n_j.d) / |d|^2 c, d = p_j - p_i. That is Hoppe's n_i.n_j with n_i
  * mirrored in the plane between the points (Xie), so that creases of more than 90 degrees and facing sheets count rightly;
- * c = 1 / (1 + (l / |d|)^4) leaves the mirror out for offsets shorter than l^2 = 8 noise^2 + 2 spacing^2, which tell nothing.
+ * c = 1 / (1 + (l / |d|)^4) leaves the mirror out for offsets that tell nothing, l^2 = 8 noise^2 + 2 spacing^2 cos^2(2 angle).
  * A maximum spanning tree is then grown as Boruvka does, but votes between pieces that have grown together are added up, so that no
  * single bad pair decides for a whole face; in the end every point follows the majority of its neighbours. The side of each part:
  * 1. toward `viewpoint`, if given and the part clearly faces it or turns its back;
@@ -59,7 +59,7 @@ struct NormalOrientationStatistics {
  *
  * \param[in] points N finite positions \param[in,out] normals N unit vectors in sorted order, any signs
  * \param[in] viewpoint in the frame of the points, or null
- * Cost: O(N) after N queries of k neighbours; memory about 8 k + 40 bytes a point.
+ * Cost: O(N) after N queries of k neighbours; memory about 20 k bytes a point.
  * \throws InvalidParameter, Cancelled
  */
 PCL_GPF_CORE_EXPORT NormalOrientationStatistics
