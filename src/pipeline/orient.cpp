@@ -45,8 +45,8 @@ fillNormals(Packed& packed, unsigned number_of_threads, const StageProgress& pro
 } // namespace
 
 OrientResult
-orientCloud(const DenoiseInput& input, const NormalOrientationParameters& wanted, const std::array<double, 3>* viewpoint,
-            const StageProgress& progress)
+orientCloud(const DenoiseInput& input, const NormalOrientationParameters& wanted,
+            const std::array<double, 3>* viewpoint, const StageProgress& progress)
 {
   validate(wanted);
   if (viewpoint)
@@ -68,8 +68,8 @@ orientCloud(const DenoiseInput& input, const NormalOrientationParameters& wanted
   std::array<double, 3> local_viewpoint{0.0, 0.0, 0.0};
   for (std::size_t axis = 0; viewpoint && axis < 3; ++axis)
     local_viewpoint[axis] = ((*viewpoint)[axis] - packed.frame.origin[axis]) / packed.frame.scale;
-  result.orientation = orientNormals(parameters, *packed.index, packed.normals.view(), viewpoint ? &local_viewpoint : nullptr,
-                                     stageOf("orient", progress));
+  result.orientation = orientNormals(parameters, *packed.index, packed.normals.view(),
+                                     viewpoint ? &local_viewpoint : nullptr, stageOf("orient", progress));
   result.orientation.noise = packed.frame.lengthToWorld(result.orientation.noise);
 
   const auto spread = [&](const AlignedArray<float>& from, std::vector<float>& to) {

@@ -114,8 +114,9 @@ TEST(NormalOrientationFilter, EveryParameterOutOfRangeThrows)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::function<void(NormalOrientation<PointT>&)> mistakes[] = {
-      [](auto& f) { f.setNeighbors(2); }, [](auto& f) { f.setNeighbors(101); }, [](auto& f) { f.setNoise(-1); },
-      [&](auto& f) { f.setNoise(nan); },  [](auto& f) { f.setGap(101); },       [&](auto& f) { f.setViewPoint(nan, 0, 0); }};
+      [](auto& f) { f.setNeighbors(2); }, [](auto& f) { f.setNeighbors(101); },
+      [](auto& f) { f.setNoise(-1); },    [&](auto& f) { f.setNoise(nan); },
+      [](auto& f) { f.setGap(101); },     [&](auto& f) { f.setViewPoint(nan, 0, 0); }};
   for (const auto& mistake : mistakes) {
     NormalOrientation<PointT> filter;
     mistake(filter);

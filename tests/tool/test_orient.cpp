@@ -34,7 +34,9 @@ countWrong(const CloudFile& cloud, const Shape& shape)
   const int x = cloud.findField("normal_x"), y = cloud.findField("normal_y"), z = cloud.findField("normal_z");
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    wrong += !(cloud.value(i, x) * shape.normals[i][0] + cloud.value(i, y) * shape.normals[i][1] + cloud.value(i, z) * shape.normals[i][2] > 0);
+    wrong += !(cloud.value(i, x) * shape.normals[i][0] + cloud.value(i, y) * shape.normals[i][1] +
+                   cloud.value(i, z) * shape.normals[i][2] >
+               0);
   return wrong;
 }
 
@@ -127,8 +129,9 @@ TEST(ToolOrient, WrongOptionsAndUnusableCloudsAreRefused)
 {
   TemporaryFolder folder;
   const std::string input = saveNoisyCube(folder / "in.ply", 500);
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"--viewpoint", "1,2"}, std::vector<std::string>{"--neighbors", "2"},
-                                                std::vector<std::string>{"--gap", "-1"}, std::vector<std::string>{"--viewpoint", "nan,0,0"}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--viewpoint", "1,2"}, std::vector<std::string>{"--neighbors", "2"},
+        std::vector<std::string>{"--gap", "-1"}, std::vector<std::string>{"--viewpoint", "nan,0,0"}}) {
     std::vector<std::string> all{"orient", input, "-o", folder / "out.ply"};
     all.insert(all.end(), words.begin(), words.end());
     const ToolRun run = runTool(all);

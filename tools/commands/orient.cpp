@@ -56,26 +56,31 @@ chosenParameters(const Options& options, const LoadedCloud& cloud)
 std::string
 summaryText(const NormalOrientationStatistics& s)
 {
-  return std::to_string(s.flipped) + " normals flipped; " + std::to_string(s.parts) + " parts: " +
-         std::to_string(s.parts_by_viewpoint) + " toward the viewpoint, " + std::to_string(s.parts_outward) + " closed and outward, " +
-         std::to_string(s.parts_by_root) + " with the highest point looking up";
+  return std::to_string(s.flipped) + " normals flipped; " + std::to_string(s.parts) +
+         " parts: " + std::to_string(s.parts_by_viewpoint) + " toward the viewpoint, " +
+         std::to_string(s.parts_outward) + " closed and outward, " + std::to_string(s.parts_by_root) +
+         " with the highest point looking up";
 }
 
 Json
-orientReport(const Options& options, const CloudFile& file, const NormalOrientationParameters& parameters, const Viewpoint& viewpoint,
-             const OrientResult& result)
+orientReport(const Options& options, const CloudFile& file, const NormalOrientationParameters& parameters,
+             const Viewpoint& viewpoint, const OrientResult& result)
 {
   const NormalOrientationStatistics& s = result.orientation;
   Json report = newReport("orient");
-  report["input"] = {{"path", options.files()[0]}, {"points", file.size()}, {"finite", file.size() - result.non_finite_points},
-                     {"normals", result.estimated_normals + result.non_finite_points == file.size() ? "estimated" : "file"}};
+  report["input"] = {
+      {"path", options.files()[0]},
+      {"points", file.size()},
+      {"finite", file.size() - result.non_finite_points},
+      {"normals", result.estimated_normals + result.non_finite_points == file.size() ? "estimated" : "file"}};
   report["output"] = {{"path", outputPath(options)}, {"points", file.size()}};
   report["points"] = file.size();
   report["estimated_normals"] = result.estimated_normals;
   report["viewpoint"] = viewpoint ? Json(*viewpoint) : Json();
   report["parameters"] = {{"neighbors", parameters.neighbors}, {"noise", s.noise}, {"gap", parameters.gap}};
   report["flipped"] = s.flipped;
-  report["parts"] = {{"all", s.parts}, {"viewpoint", s.parts_by_viewpoint}, {"outward", s.parts_outward}, {"root", s.parts_by_root}};
+  report["parts"] = {
+      {"all", s.parts}, {"viewpoint", s.parts_by_viewpoint}, {"outward", s.parts_outward}, {"root", s.parts_by_root}};
   report["votes"] = {{"all", s.votes}, {"disagreeing", s.disagreeing_votes}};
   report["threads"] = resolveThreads(parameters.number_of_threads);
   return report;
@@ -104,7 +109,8 @@ runOrient(const Options& options)
   OrientResult result = [&] {
     Progress progress(options);
     const auto update = [&progress](const std::string& name, double done) { return progress.update(name, done); };
-    return orientCloud(filterInput(cloud, cloud.file.hasNormals()).view, parameters, viewpoint ? &*viewpoint : nullptr, update);
+    return orientCloud(filterInput(cloud, cloud.file.hasNormals()).view, parameters, viewpoint ? &*viewpoint : nullptr,
+                       update);
   }();
   tellAboutNormals(result, cloud.finite, console);
   console.say(summaryText(result.orientation));
@@ -116,7 +122,8 @@ runOrient(const Options& options)
   writeCloud(cloud.file, outputPath(options), writeOptions(options));
   console.say("wrote " + std::to_string(cloud.file.size()) + " points");
   Json report = orientReport(options, cloud.file, parameters, viewpoint, result);
-  report["seconds"] = {{"normals", result.seconds_normals}, {"orient", result.orientation.seconds}, {"total", total.lap()}};
+  report["seconds"] = {
+      {"normals", result.seconds_normals}, {"orient", result.orientation.seconds}, {"total", total.lap()}};
   report["peak_bytes"] = peakMemory();
   report["warnings"] = console.warnings();
   writeReport(report, options);
@@ -131,13 +138,16 @@ ownOptions()
                        "nearest neighbours that each point votes with; more for strong noise, fewer for thin sheets"};
   neighbors.least = 3;
   neighbors.most = 100;
-  OptionSpec gap{"gap", OptionKind::Number, "X", "6", "spacings across which separate parts still vote; 0 = each for itself"};
+  OptionSpec gap{"gap", OptionKind::Number, "X", "6",
+                 "spacings across which separate parts still vote; 0 = each for itself"};
   gap.least = 0;
   gap.most = 100;
   return {{"viewpoint", OptionKind::Text, "X,Y,Z", "auto",
-           "turn parts toward this point; auto: the viewpoint of the file unless it is 0,0,0; none: closed parts outward, others up"},
+           "turn parts toward this point; auto: the viewpoint of the file unless it is 0,0,0; none: closed parts "
+           "outward, others up"},
           neighbors,
-          {"noise", OptionKind::Length, "LENGTH", "auto", "standard deviation along the normals; shorter offsets tell nothing"},
+          {"noise", OptionKind::Length, "LENGTH", "auto",
+           "standard deviation along the normals; shorter offsets tell nothing"},
           gap};
 }
 
@@ -150,12 +160,15 @@ orientCommand()
   command.name = "orient";
   command.summary = "Gives normals consistent signs: toward the viewpoint, or outward where the surface is closed";
   command.synopsis = "IN -o OUT [options]";
-  command.examples = {{{"pcl_gpf_tool orient clean.ply -o oriented.ply", "closed parts outward"},
-                       {"pcl_gpf_tool orient kinect.pcd -o oriented.pcd --viewpoint 0,0,0", "the camera is at the origin"},
-                       {"pcl_gpf_tool orient noisy.ply -o oriented.ply --neighbors 30", "stronger noise"}}};
-  command.options = std::vector<OptionSpec>{outputOption()} + ownOptions() +
-                    std::vector<OptionSpec>{threadsOption(), formatOption(), overwriteOption(), jsonOption(), progressOption()};
-  command.notes = "Points stay as they are; normals of the input keep their directions. A cloud without normals gets them first.";
+  command.examples = {
+      {{"pcl_gpf_tool orient clean.ply -o oriented.ply", "closed parts outward"},
+       {"pcl_gpf_tool orient kinect.pcd -o oriented.pcd --viewpoint 0,0,0", "the camera is at the origin"},
+       {"pcl_gpf_tool orient noisy.ply -o oriented.ply --neighbors 30", "stronger noise"}}};
+  command.options =
+      std::vector<OptionSpec>{outputOption()} + ownOptions() +
+      std::vector<OptionSpec>{threadsOption(), formatOption(), overwriteOption(), jsonOption(), progressOption()};
+  command.notes =
+      "Points stay as they are; normals of the input keep their directions. A cloud without normals gets them first.";
   command.run = runOrient;
   return command;
 }

@@ -15,20 +15,22 @@ struct NormalOrientationFilterStatistics : FilterStatistics {
 
 /** \brief Gives the normals of a cloud consistent signs; what upsampling and surface reconstruction need.
  *
- * Hoppe et al., **Surface Reconstruction from Unorganized Points**, SIGGRAPH 1992, with votes instead of single edges: see orientNormals().
+ * Hoppe et al., **Surface Reconstruction from Unorganized Points**, SIGGRAPH 1992, with votes instead of single edges:
+ * see orientNormals().
  * \code
- * pcl_gpf::NormalOrientation<pcl::PointNormal> orientation; // after BilateralNormalFilter, better still after GPF
+ * pcl_gpf::NormalOrientation<pcl::PointNormal> orientation; // after BilateralNormalFilter
  * orientation.setInputCloud(cloud);
  * orientation.filter(*cloud);
  * \endcode
- * Only signs change (and lengths, to 1). Size, order, organisation and positions stay: points that are not finite stay too, as NaN,
- * and points without a usable normal keep it. With setIndices() the output has the points of the indices.
- * Each connected part is turned toward the view point if there is one and the part faces it; closed parts are turned outward; the rest
- * so that the highest point looks up. By default no view point is assumed, since a cloud without a sensor has its origin at 0 as well.
+ * Only signs change (and lengths, to 1). Size, order, organisation and positions stay: points that are not finite stay
+ * too, as NaN, and points without a usable normal keep it. With setIndices() the output has the points of the indices.
+ * Each connected part is turned toward the view point if there is one and the part faces it; closed parts are turned
+ * outward; the rest so that the highest point looks up. By default no view point is assumed, since a cloud without a
+ * sensor has its origin at 0 as well.
  *
- * Cost: O(N) beyond N queries of k neighbours, O(N k) memory. Everything of OperatorFilter holds, except that a search method is only
- * checked: the k nearest neighbours are always found by the built-in tree. Setters only store; filter() checks. What each parameter
- * means, its range and default: NormalOrientationParameters.
+ * Cost: O(N) beyond N queries of k neighbours, O(N k) memory. Everything of OperatorFilter holds, except that a search
+ * method is only checked: the k nearest neighbours are always found by the built-in tree. Setters only store; filter()
+ * checks. What each parameter means, its range and default: NormalOrientationParameters.
  * \throws pcl::BadArgumentException, pcl::ComputeFailedException from filter(), see OperatorFilter
  * \ingroup filters
  */

@@ -13,7 +13,7 @@ namespace pcl_gpf {
 
 /** \brief Consistently oriented normals of a cloud in double coordinates. */
 struct OrientResult {
-  std::vector<float> normal_x, normal_y, normal_z; ///< one a row of the input, unit length; NaN where the position is not finite
+  std::vector<float> normal_x, normal_y, normal_z; ///< of each row, unit length; NaN where the position is not finite
   NormalOrientationStatistics orientation;         ///< noise in cloud units
   std::size_t non_finite_points = 0;
   std::size_t estimated_normals = 0; ///< that the input did not have
@@ -22,7 +22,8 @@ struct OrientResult {
 
 /** \brief Orients the normals of a cloud; only signs of normals that the input has change (and lengths, to 1).
  *
- * Without any normal they are estimated first (plane fits, then the bilateral filter); a missing one here and there gets its plane fit.
+ * Without any normal they are estimated first (plane fits, then the bilateral filter); a missing one here and there
+ * gets its plane fit.
  * \param[in] parameters `noise` in cloud units \param[in] viewpoint in cloud units, or null
  * \throws InvalidParameter, UnsuitableData (nothing finite, all points identical), ExcessiveWork, Cancelled
  * Thread safety: free function without shared state.

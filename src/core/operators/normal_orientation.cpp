@@ -17,7 +17,8 @@ namespace {
 constexpr unsigned kMajoritySweeps = 5;
 /** A closed surface has no vector area; a hemisphere has half of its area, a cube without one face a fifth. */
 constexpr double kClosedVectorArea = 0.25;
-/** A point whose neighbours fill a ball this many times as large (squared radius) as those of most of its neighbours is an outlier. */
+/** A point whose neighbours fill a ball this many times as large (squared radius) as those of most of its neighbours is
+ * an outlier. */
 constexpr float kOutlierRatio = 25.0f;
 /** Less than this share of the facing area tells nothing: the far and the near side of a closed part cancel. */
 constexpr double kClearMajority = 0.25;
@@ -61,7 +62,8 @@ struct Side {
 };
 
 std::vector<PartSums>
-sumParts(PointsView p, NormalsView n, const SignedGroups& parts, const std::vector<float>& area, const std::array<double, 3>* viewpoint)
+sumParts(PointsView p, NormalsView n, const SignedGroups& parts, const std::vector<float>& area,
+         const std::array<double, 3>* viewpoint)
 {
   std::vector<PartSums> sums(parts.count);
   for (std::size_t i = 0; i < p.size; ++i) {
@@ -111,8 +113,8 @@ sideOf(const PartSums& s, bool has_viewpoint)
 }
 
 void
-chooseSides(PointsView points, NormalsView normals, const std::vector<float>& area, const std::array<double, 3>* viewpoint,
-            SignedGroups& parts, NormalOrientationStatistics& statistics)
+chooseSides(PointsView points, NormalsView normals, const std::vector<float>& area,
+            const std::array<double, 3>* viewpoint, SignedGroups& parts, NormalOrientationStatistics& statistics)
 {
   std::vector<std::int8_t> side;
   for (const PartSums& sums : sumParts(points, normals, parts, area, viewpoint)) {
@@ -196,7 +198,8 @@ orientNormals(const NormalOrientationParameters& parameters, const PointIndex& p
   if (points.size() == 0)
     return statistics;
   report(progress, 0.0);
-  statistics.noise = parameters.noise > 0.0 ? parameters.noise : noiseAlongNormals(points, normals, parameters.neighbors, threads);
+  statistics.noise =
+      parameters.noise > 0.0 ? parameters.noise : noiseAlongNormals(points, normals, parameters.neighbors, threads);
   const VoteGraph graph = neighborVotes(points, normals, parameters.neighbors, statistics.noise, threads);
   report(progress, 0.6);
   SignedGroups parts = singleGroups(points.size());
@@ -204,7 +207,8 @@ orientNormals(const NormalOrientationParameters& parameters, const PointIndex& p
   report(progress, 0.8);
   followMajority(graph.rows, parts, kMajoritySweeps);
   if (parts.count > 1 && parameters.gap > 0.0) {
-    const VoteRows gaps = gapVotes(points, normals, graph.radius_sq, parameters.neighbors, parts.group, parameters.gap, statistics.noise, threads);
+    const VoteRows gaps = gapVotes(points, normals, graph.radius_sq, parameters.neighbors, parts.group, parameters.gap,
+                                   statistics.noise, threads);
     joinGroups(gaps, parts);
     countVotes(gaps, parts, statistics);
   }

@@ -42,8 +42,8 @@ struct Oriented {
 };
 
 Oriented
-orient(const std::vector<Vector3>& points, const std::vector<Vector3>& normals, const NormalOrientationParameters& parameters = {},
-       const Viewpoint* viewpoint = nullptr)
+orient(const std::vector<Vector3>& points, const std::vector<Vector3>& normals,
+       const NormalOrientationParameters& parameters = {}, const Viewpoint* viewpoint = nullptr)
 {
   const SoaBuffer positions = toBuffer(points);
   SoaBuffer buffer = toBuffer(normals);
@@ -70,8 +70,8 @@ shareWrong(const std::vector<Vector3>& normals, const std::vector<Vector3>& exac
   return static_cast<double>(wrong) / static_cast<double>(normals.size());
 }
 
-/** \brief Share of the normals of a box [0, 1]^2 x [0, top] that point inward. Beside an edge a normal may be that of either face, so
- * that the face counts whose direction it has. */
+/** \brief Share of the normals of a box [0, 1]^2 x [0, top] that point inward. Beside an edge a normal may be that of
+ * either face, so that the face counts whose direction it has. */
 double
 shareInward(const std::vector<Vector3>& points, const std::vector<Vector3>& normals, double top)
 {
@@ -115,7 +115,7 @@ plate(std::size_t count, double top, double noise)
   });
 }
 
-/** \brief Closed bracket: the cube without the quarter x > 1/2, z > 1/2; five convex edges and a concave one along y. */
+/** \brief Closed bracket: the cube without the quarter x > 1/2, z > 1/2; five convex edges and a concave one along y */
 Shape
 bracket(std::size_t count, double noise)
 {
@@ -263,7 +263,8 @@ TEST(NormalOrientationLaws, VotesAreThoseOfTheFormula)
   }
   EXPECT_EQ(result.statistics.votes, 12u * p.size());
   EXPECT_GT(disagreeing, 0u);
-  EXPECT_NEAR(static_cast<double>(result.statistics.disagreeing_votes), static_cast<double>(disagreeing), static_cast<double>(undecided));
+  EXPECT_NEAR(static_cast<double>(result.statistics.disagreeing_votes), static_cast<double>(disagreeing),
+              static_cast<double>(undecided));
   EXPECT_LT(undecided, disagreeing / 4);
 }
 
@@ -298,7 +299,8 @@ TEST(NormalOrientationSides, EachPartGetsItsOwnSide)
   for (const Vector3& offset : {Vector3{3, 0, 0}, Vector3{0, -4, 1}}) {
     const Shape more = sphere(2000, 0, 17);
     for (std::size_t i = 0; i < more.size(); ++i)
-      append(shapes, {more.points[i][0] + offset[0], more.points[i][1] + offset[1], more.points[i][2] + offset[2]}, more.normals[i]);
+      append(shapes, {more.points[i][0] + offset[0], more.points[i][1] + offset[1], more.points[i][2] + offset[2]},
+             more.normals[i]);
   }
   const Oriented result = orient(shapes);
   EXPECT_EQ(result.statistics.parts, 3u);
@@ -367,7 +369,8 @@ TEST(NormalOrientationParameters, OutOfRangeThrowsAndCancelThrows)
   const SoaBuffer points = toBuffer(cube(500).points);
   SoaBuffer normals = toBuffer(cube(500).normals);
   const std::vector<Vector3> before = toVectors(normals);
-  EXPECT_THROW(orientNormals({}, points.view(), normals.view(), nullptr, [](double done) { return done < 0.5; }), Cancelled);
+  EXPECT_THROW(orientNormals({}, points.view(), normals.view(), nullptr, [](double done) { return done < 0.5; }),
+               Cancelled);
   EXPECT_EQ(toVectors(normals), before);
 }
 
