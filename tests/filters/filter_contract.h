@@ -8,6 +8,7 @@
 
 #include <pcl_gpf/filters/bilateral_normal_filter.h>
 #include <pcl_gpf/filters/gpf.h>
+#include <pcl_gpf/filters/normal_orientation.h>
 
 #include <gtest/gtest.h>
 
@@ -37,9 +38,19 @@ struct ContractOf<BilateralNormalFilter<PointT>> {
   static void setInvalidParameter(BilateralNormalFilter<PointT>& filter) { filter.setRadius(-1); }
 };
 
+template <typename PointT>
+struct ContractOf<NormalOrientation<PointT>> {
+  using Point = PointT;
+  static constexpr const char* kName = "NormalOrientation";
+  static constexpr bool kKeepsNonFinite = true;
+  static void prepare(NormalOrientation<PointT>& filter) { filter.setNeighbors(10); }
+  static void setInvalidParameter(NormalOrientation<PointT>& filter) { filter.setNeighbors(2); }
+};
+
 #ifdef PCL_GPF_TEST_CUSTOM_POINT
 /** \brief Every filter with a point type of the user's own; the place to add a new filter. */
-using ContractFilters = ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>>;
+using ContractFilters =
+    ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>, NormalOrientation<ScannerPoint>>;
 #else
 /** \brief Every filter with every compiled point type; the place to add a new filter. */
 using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
@@ -47,7 +58,10 @@ using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
                                          GPF<pcl::PointXYZINormal>,
                                          BilateralNormalFilter<pcl::PointNormal>,
                                          BilateralNormalFilter<pcl::PointXYZRGBNormal>,
-                                         BilateralNormalFilter<pcl::PointXYZINormal>>;
+                                         BilateralNormalFilter<pcl::PointXYZINormal>,
+                                         NormalOrientation<pcl::PointNormal>,
+                                         NormalOrientation<pcl::PointXYZRGBNormal>,
+                                         NormalOrientation<pcl::PointXYZINormal>>;
 #endif
 
 /** \brief A filter made ready for clouds of the size of the unit cube, and clouds for it. */
