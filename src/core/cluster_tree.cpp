@@ -3,6 +3,8 @@
 #include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/parallel.h>
 
+#include "kernels/kernels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -107,6 +109,17 @@ curveBox(PointsView points)
   return denseBox(box, points.size, [&](std::size_t i, std::size_t axis) { return static_cast<double>(axes[axis][i]); });
 }
 
+/** near[k]: which of the 8 boxes of packs[nodes[k]] come within `radius` of `box`, a bit each. */
+void
+findNear(const std::vector<BoxPack>& packs, const std::vector<std::uint32_t>& nodes, const FloatBox& box, float radius,
+         std::vector<std::uint8_t>& near)
+{
+  near.resize(nodes.size());
+  // Boxes that are not there are at infinity, beyond any finite square.
+  const float radius_sq = std::min(radius * radius, std::numeric_limits<float>::max());
+  kernels::active().near_children({packs.data(), nodes.data(), nodes.size(), box, radius_sq, near.data()});
+}
+
 } // namespace
 
 std::vector<std::uint32_t>
@@ -161,7 +174,7 @@ ClusterTree::fit(PointsView sorted, std::size_t threads)
             box = boxOf(sorted, std::min(size_, child * kClusterSize), std::min(size_, (child + 1) * kClusterSize));
           else if (child < levels_[level - 1].size())
             for (std::size_t axis = 0; axis < 3; ++axis) {
-              const Pack& below = levels_[level - 1][child];
+              const BoxPack& below = levels_[level - 1][child];
               box.min[axis] = *std::min_element(below.min[axis], below.min[axis] + kFanout);
               box.max[axis] = *std::max_element(below.max[axis], below.max[axis] + kFanout);
             }
@@ -180,7 +193,7 @@ ClusterTree::bounds() const
   FloatBox box = emptyBox();
   if (size_ > 0)
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Pack& top = levels_.back().front();
+      const BoxPack& top = levels_.back().front();
       box.min[axis] = *std::min_element(top.min[axis], top.min[axis] + kFanout);
       box.max[axis] = *std::max_element(top.max[axis], top.max[axis] + kFanout);
     }
@@ -188,37 +201,52 @@ ClusterTree::bounds() const
 }
 
 void
-ClusterTree::collectRuns(const FloatBox& box, float radius, std::vector<Run>& runs) const
+ClusterTree::collectGroups(const FloatBox& box, float radius, std::vector<std::uint32_t>& groups) const
 {
-  if (size_ > 0)
-    descend(levels_.size() - 1, 0, box, std::min(radius * radius, std::numeric_limits<float>::max()), runs); // empty boxes are at infinity
+  groups.clear();
+  if (size_ == 0)
+    return;
+  groups.push_back(0);
+  std::vector<std::uint32_t> children;
+  std::vector<std::uint8_t> near;
+  for (std::size_t level = levels_.size() - 1; level > 0; --level) {
+    findNear(levels_[level], groups, box, radius, near);
+    children.clear();
+    for (std::size_t k = 0; k < groups.size(); ++k)
+      for (std::uint32_t c = 0; c < kFanout; ++c)
+        if ((near[k] >> c & 1u) != 0)
+          children.push_back(groups[k] * static_cast<std::uint32_t>(kFanout) + c);
+    groups.swap(children);
+  }
 }
 
 void
-ClusterTree::descend(std::size_t level, std::size_t pack, const FloatBox& box, float radius_sq, std::vector<Run>& runs) const
+ClusterTree::collectRuns(const std::vector<std::uint32_t>& groups, const FloatBox& box, float radius, std::vector<Run>& runs) const
 {
-  const Pack& children = levels_[level][pack];
-  float gap_sq[kFanout] = {};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t c = 0; c < kFanout; ++c) {
-      const float gap = std::max(0.0f, std::max(children.min[axis][c] - box.max[axis], box.min[axis] - children.max[axis][c]));
-      gap_sq[c] += gap * gap;
+  std::vector<std::uint8_t> near;
+  findNear(levels_.front(), groups, box, radius, near);
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    for (unsigned bits = near[k], c = 0; bits != 0; bits >>= 1, ++c) {
+      if ((bits & 1u) == 0)
+        continue;
+      const std::size_t child = groups[k] * kFanout + c;
+      const auto begin = static_cast<std::uint32_t>(child * kClusterSize);
+      const auto end = static_cast<std::uint32_t>(std::min(size_, (child + 1) * kClusterSize));
+      if (!runs.empty() && runs.back().end == begin)
+        runs.back().end = end;
+      else
+        runs.push_back({begin, end});
     }
-  for (std::size_t c = 0; c < kFanout; ++c) {
-    if (!(gap_sq[c] <= radius_sq))
-      continue;
-    const std::size_t child = pack * kFanout + c;
-    if (level > 0) {
-      descend(level - 1, child, box, radius_sq, runs);
-      continue;
-    }
-    const auto begin = static_cast<std::uint32_t>(child * kClusterSize);
-    const auto end = static_cast<std::uint32_t>(std::min(size_, (child + 1) * kClusterSize));
-    if (!runs.empty() && runs.back().end == begin)
-      runs.back().end = end;
-    else
-      runs.push_back({begin, end});
-  }
+}
+
+void
+ClusterTree::collectRuns(const FloatBox& box, float radius, std::vector<Run>& runs) const
+{
+  if (size_ == 0)
+    return;
+  std::vector<std::uint32_t> groups;
+  collectGroups(box, radius, groups);
+  collectRuns(groups, box, radius, runs);
 }
 
 void
@@ -265,7 +293,7 @@ ClusterTree::nearest(PointsView sorted,
       }
       continue;
     }
-    const Pack& children = levels_[node.level - 1u][node.index];
+    const BoxPack& children = levels_[node.level - 1u][node.index];
     for (std::size_t c = 0; c < kFanout; ++c) {
       float gap_sq = 0.0f;
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -14,6 +14,8 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kBlocksPerTask = 256;
+/** Blocks that share one descent into the tree: together not much wider than a ball. */
+constexpr std::size_t kBlocksPerDescent = 16;
 /** Work beyond this many candidate pairs an iteration, and this many a point, is taken for a mistaken radius. */
 constexpr double kMostCandidatePairs = 2e10;
 constexpr double kManyCandidates = 20000.0;
@@ -34,6 +36,18 @@ blockBox(PointsView queries, std::size_t block)
     box.max[axis] = *range.second;
   }
   return box;
+}
+
+FloatBox
+unite(const FloatBox* boxes, std::size_t count)
+{
+  FloatBox all = boxes[0];
+  for (std::size_t k = 1; k < count; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all.min[axis] = std::min(all.min[axis], boxes[k].min[axis]);
+      all.max[axis] = std::max(all.max[axis], boxes[k].max[axis]);
+    }
+  return all;
 }
 
 /** A hair more than the radius: boxes are rounded to float, kernels may work in double. */
@@ -85,12 +99,23 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
   parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Run>& own = runs[begin / kBlocksPerTask];
     std::vector<Run> one;
-    for (std::size_t block = begin; block < end; ++block) {
-      one.clear();
-      const FloatBox box = blockBox(queries, block);
-      tree.collectRuns(box, reach(radius(block), box), one);
-      own.insert(own.end(), one.begin(), one.end());
-      result.run_offsets[block + 1] = one.size();
+    std::vector<std::uint32_t> groups;
+    for (std::size_t first = begin; first < end; first += kBlocksPerDescent) {
+      const std::size_t last = std::min(end, first + kBlocksPerDescent);
+      FloatBox boxes[kBlocksPerDescent];
+      float reaches[kBlocksPerDescent], longest = 0.0f;
+      for (std::size_t block = first; block < last; ++block) {
+        boxes[block - first] = blockBox(queries, block);
+        reaches[block - first] = reach(radius(block), boxes[block - first]);
+        longest = std::max(longest, reaches[block - first]);
+      }
+      tree.collectGroups(unite(boxes, last - first), longest, groups);
+      for (std::size_t block = first; block < last; ++block) {
+        one.clear();
+        tree.collectRuns(groups, boxes[block - first], reaches[block - first], one);
+        own.insert(own.end(), one.begin(), one.end());
+        result.run_offsets[block + 1] = one.size();
+      }
     }
   });
   for (std::size_t block = 0; block < blocks; ++block)

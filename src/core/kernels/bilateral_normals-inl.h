@@ -13,7 +13,7 @@ namespace pcl_gpf {
 namespace kernels {
 namespace HWY_NAMESPACE {
 
-template <class D, bool kSignInvariant>
+template <class D, bool kSignInvariant, bool kWeighted>
 struct BilateralNormalSum {
   using V = hn::Vec<D>;
   const BilateralNormals& a;
@@ -53,6 +53,8 @@ struct BilateralNormalSum {
     V weight = hn::IfThenElseZero(inside, expNonPositive(d, exponent));
     if (kSignInvariant)
       weight = hn::CopySignToAbs(weight, cosine);
+    if (kWeighted)
+      weight = hn::Mul(weight, datum(d, a.data_weight));
     addScaled<D>(sum, weight, normal);
   }
 
