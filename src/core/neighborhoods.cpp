@@ -95,6 +95,7 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
   std::vector<std::vector<Run>> runs(tasks);
   Neighborhoods result;
   result.query_count = queries.size;
+  result.absent = tree.size();
   result.run_offsets.assign(blocks + 1, 0);
   parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Run>& own = runs[begin / kBlocksPerTask];
@@ -155,6 +156,7 @@ transposeLists(const NeighborLists& lists, std::size_t absent)
   const std::size_t blocks = (queries + kQueryBlock - 1) / kQueryBlock;
   Neighborhoods result;
   result.query_count = queries;
+  result.absent = absent;
   result.lane_offsets.assign(blocks + 1, 0);
   const auto rowSize = [&](std::size_t q) { return lists.offsets[q + 1] - lists.offsets[q]; };
   for (std::size_t block = 0; block < blocks; ++block) {

@@ -74,8 +74,8 @@ inline kernels::Candidates
 candidatesOf(const Neighborhoods& neighborhoods)
 {
   if (neighborhoods.foreign())
-    return {neighborhoods.query_count, nullptr, nullptr, neighborhoods.lane_offsets.data(), neighborhoods.lanes.data()};
-  return {neighborhoods.query_count, neighborhoods.run_offsets.data(), neighborhoods.runs.data(), nullptr, nullptr};
+    return {neighborhoods.query_count, nullptr, nullptr, neighborhoods.absent, neighborhoods.lane_offsets.data(), neighborhoods.lanes.data()};
+  return {neighborhoods.query_count, neighborhoods.run_offsets.data(), neighborhoods.runs.data(), neighborhoods.absent, nullptr, nullptr};
 }
 
 /** Blocks of queries that one task takes: enough to hide its cost, few enough to balance. */

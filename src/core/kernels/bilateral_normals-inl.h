@@ -42,7 +42,7 @@ struct BilateralNormalSum {
     const Lanes3<D> offset = minus<D>(loadDatum(d, a.data, datum), query);
     const V distance_sq = dot<D>(offset, offset);
     const auto inside = hn::Lt(distance_sq, radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     const Lanes3<D> normal = loadDatum(d, a.data_normals, datum);
     const V cosine = dot<D>(normal, query_normal);

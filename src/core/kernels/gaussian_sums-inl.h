@@ -41,7 +41,7 @@ struct GaussianSum {
     const Lanes3<D> offset = minus<D>(loadDatum(d, a.data, datum), query);
     const V distance_sq = dot<D>(offset, offset);
     const auto inside = hn::Lt(distance_sq, radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     sum = hn::Add(sum, hn::IfThenElseZero(inside, expNonPositive(d, hn::Mul(distance_sq, scale))));
   }
@@ -83,7 +83,7 @@ struct MomentSum {
   {
     Lanes3<D> o = minus<D>(loadDatum(d, a.data, datum), query);
     const auto inside = hn::Lt(dot<D>(o, o), radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     o = {hn::IfThenElseZero(inside, o.x), hn::IfThenElseZero(inside, o.y), hn::IfThenElseZero(inside, o.z)};
     const V weight = kWeighted ? datum(d, a.data_weight) : hn::Set(d, 1.0f);

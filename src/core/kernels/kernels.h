@@ -108,6 +108,7 @@ struct Candidates {
   std::size_t query_count = 0;
   const std::size_t* run_offsets = nullptr;
   const Run* runs = nullptr;
+  std::size_t absent = 0;                    ///< index of a padded datum
   const std::size_t* lane_offsets = nullptr; ///< not null: foreign lists
   const std::int32_t* lanes = nullptr;
 };

@@ -57,7 +57,7 @@ struct ProjectionSum {
     const Lanes3<D> offset = minus<D>(loadDatum(d, a.data, datum), query);
     const V distance_sq = dot<D>(offset, offset);
     const auto inside = hn::Lt(distance_sq, radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     const Lanes3<D> normal = loadDatum(d, a.data_normals, datum);
     const V height = dot<D>(offset, normal);

@@ -108,6 +108,18 @@ GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
   parameters = p;
   isolated_.assign(size(), 0);
   evaluateDensities();
+  mergeData();
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::mergeData()
+{
+  if constexpr (std::is_same<Real, float>::value) {
+    const kernels::Vectors<float> n = cloud_.pointNormals();
+    if (!search_ && point_weight_.empty()) // merged points have no weights of their own
+      merged_ = mergePoints(cloud_.index(), {n.x, n.y, n.z, cloud_.pointCount()}, {data_radius_}, parameters.merge_above, false, threads_);
+  }
 }
 
 /** rho_n = 1 + sum over n' != n of theta(|v_n - v_n'|), within h / 2; the point itself contributes the 1. */
@@ -181,6 +193,12 @@ GPFSolver<Real>::evaluateDataTerm()
   a.normal_floor = static_cast<Real>(parameters.normal_weight_floor);
   a.data_weight = point_weight_.empty() ? nullptr : point_weight_.data();
   a.data_density = inverse_density_.empty() ? nullptr : inverse_density_.data();
+  if constexpr (std::is_same<Real, float>::value)
+    if (!merged_.empty()) {
+      a.data = merged_.positions.vectors();
+      a.data_normals = merged_.normals.vectors();
+      a.data_weight = merged_.weights.data();
+    }
   a.weight_sum = sums.weight.data();
   a.pull = sums.pull.vectors();
   a.variance = variance;
@@ -367,7 +385,8 @@ GPFSolver<Real>::current(MovingNeighborhoods& moving, bool data_are_samples, boo
     const PointsView samples = cloud_.samples().floatView(float_samples_), sorted = cloud_.index().sorted();
     if (data_are_samples)
       sample_tree_.fit(samples, threads_);
-    moving.set(neighborhoods(data_are_samples ? sample_tree_ : cloud_.index().tree(), data_are_samples ? samples : sorted,
+    const ClusterTree& data_tree = merged_.empty() ? cloud_.index().tree() : merged_.tree;
+    moving.set(neighborhoods(data_are_samples ? sample_tree_ : data_tree, data_are_samples ? samples : sorted,
                              queries_are_samples ? samples : sorted, moving.reach()));
   }
   return moving.get();

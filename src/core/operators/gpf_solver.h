@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "../merged_points.h"
 #include "../moving_neighborhoods.h"
 #include "gpf_points.h"
 
@@ -86,6 +87,8 @@ private:
   void
   evaluateDensities();
   void
+  mergeData();
+  void
   evaluatePosteriorDenominators();
   DataSums
   evaluateDataTerm();
@@ -117,6 +120,7 @@ private:
   ClusterTree sample_tree_;
   std::vector<std::uint8_t> isolated_; ///< in sorted order
 
+  MergedPoints merged_; ///< data where balls hold many points; empty: the points themselves
   AlignedArray<Real> point_weight_;  ///< 1 / denominator of eq. 3, or 1
   AlignedArray<Real> inverse_density_; ///< 1 / rho_n, or 1
   MovingNeighborhoods data_neighborhoods_, posterior_neighborhoods_, repulsion_neighborhoods_;

@@ -119,11 +119,12 @@ TYPED_TEST(Kernels, workOnPartOfTheBlocks)
 template <typename Real>
 struct ExpInput {
   static constexpr std::size_t kQueries = 1 << 18;
-  SortedVectors<Real> queries{kQueries, Real(0)}, normals{kQueries, Real(0)}, data{1, Real(0)};
+  SortedVectors<Real> queries{kQueries, Real(0)}, normals{kQueries, Real(0)}, data{1, Real(kFarAway)};
   Neighborhoods near;
 
   explicit ExpInput(double longest_argument)
   {
+    data.x[0] = data.y[0] = data.z[0] = Real(0);
     SplitMix64 random(1);
     for (std::size_t q = 0; q < kQueries; ++q) {
       // Half of the arguments evenly spread, half of them by magnitude, down to 1e-20.
@@ -132,6 +133,7 @@ struct ExpInput {
       queries.x[q] = static_cast<Real>(std::sqrt(argument));
     }
     near.query_count = kQueries;
+    near.absent = 1;
     near.runs.assign(blockCount(kQueries), Run{0, 1});
     near.run_offsets.resize(blockCount(kQueries) + 1);
     std::iota(near.run_offsets.begin(), near.run_offsets.end(), std::size_t{0});
