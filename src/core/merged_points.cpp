@@ -11,13 +11,10 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Points that share one count of a ball; a power of two. */
-constexpr std::size_t kChunk = 512;
-constexpr std::size_t kPointsPerTask = 16 * kChunk;
+/** Points that share one choice of group, after the balls about its first, middle and last point; a power of two. */
+constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kPointsPerTask = 8 * kChunk;
 constexpr std::size_t kLargestGroup = 256;
-/** Diagonal of a group's box as a share of the radius. */
-constexpr double kWidestShare = 0.4;
-constexpr float kSameDirection = 0.966f; ///< cosine of 15 degrees
 /** Means as a share of the points above which merging is not worth its memory. */
 constexpr double kWorthwhile = 0.75;
 
@@ -40,13 +37,18 @@ public:
   void
   addChunk(std::size_t begin, std::size_t end)
   {
+    std::size_t held = merge_above_ * kLargestGroup;
+    for (const std::size_t i : {begin, begin + (end - begin) / 2, end - 1})
+      if (held > merge_above_)
+        held = std::min(held, countBall(i));
     std::size_t group = 1;
-    for (std::size_t held = countBall(begin + (end - begin) / 2); held > merge_above_ && group < kLargestGroup; held = (held + 1) / 2)
+    for (; held > merge_above_ && group < kLargestGroup; held = (held + 1) / 2)
       group *= 2;
     for (std::size_t first = begin; first < end; first += group)
       addGroup(first, std::min(end, first + group));
   }
 
+  /** What is left of a mean. */
   struct Datum {
     std::array<float, 3> position, normal;
     float weight;
@@ -57,6 +59,7 @@ public:
 private:
   double radiusSq(std::size_t i) const { return radius_.per_point_sq ? radius_.per_point_sq[i] : radius_.radius * radius_.radius; }
 
+  /** Points within the radius of point i, or some number that asks for the largest groups. */
   std::size_t
   countBall(std::size_t i)
   {
@@ -65,11 +68,13 @@ private:
     runs_.clear();
     points_.tree().collectRuns({centre, centre}, std::sqrt(radius_sq), runs_);
     std::size_t held = 0;
-    for (const Run& run : runs_)
+    for (std::size_t r = 0; r < runs_.size() && held <= merge_above_ * kLargestGroup; ++r) {
+      const Run& run = runs_[r];
       for (std::size_t j = run.begin; j < run.end; ++j) {
         const float dx = p_.x[j] - centre[0], dy = p_.y[j] - centre[1], dz = p_.z[j] - centre[2];
         held += dx * dx + dy * dy + dz * dz < radius_sq;
       }
+    }
     return held;
   }
 
@@ -103,7 +108,7 @@ private:
     double radius_sq = radiusSq(begin);
     for (std::size_t i = begin + 1; radius_.per_point_sq && i < end; ++i)
       radius_sq = std::min(radius_sq, radiusSq(i));
-    return diagonal_sq > kWidestShare * kWidestShare * radius_sq;
+    return diagonal_sq > MergedPoints::kWidestShare * MergedPoints::kWidestShare * radius_sq;
   }
 
   /** To the first mean of the group that faces the same way, or a new one. */
@@ -116,7 +121,7 @@ private:
     for (; m < means_.size(); ++m) {
       const std::array<float, 3>& direction = means_[m].direction;
       cosine = n_.x ? normal[0] * direction[0] + normal[1] * direction[1] + normal[2] * direction[2] : 1.0f;
-      if (std::abs(cosine) >= kSameDirection)
+      if (std::abs(cosine) >= MergedPoints::kSameDirection)
         break;
     }
     if (m == means_.size()) {

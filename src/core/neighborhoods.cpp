@@ -20,7 +20,7 @@ constexpr std::size_t kBlocksPerDescent = 16;
 constexpr double kMostCandidatePairs = 2e10;
 constexpr double kManyCandidates = 20000.0;
 constexpr std::size_t kProbes = 256;
-/** Rough cost of a candidate pair, only used to put a figure into the refusal. */
+/** Rough cost of a candidate pair on one thread, only used to put a figure into the refusal. */
 constexpr double kSecondsPerCandidate = 1e-9;
 
 FloatBox
@@ -60,13 +60,20 @@ reach(double radius, const FloatBox& box)
   return static_cast<float>(radius * (1.0 + 1e-5) + 2e-7 * (farthest + radius));
 }
 
+std::string
+rounded(double value)
+{
+  return std::to_string(static_cast<long long>(std::ceil(value)));
+}
+
+/** Counts candidates and runs of a sample of blocks. \throws ExcessiveWork with the estimated pairs, time and memory */
 template <typename RadiusOfBlock>
 void
 refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
 {
   const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
   const std::size_t stride = std::max<std::size_t>(1, blocks / kProbes);
-  double candidates = 0.0;
+  double candidates = 0.0, run_count = 0.0;
   std::size_t probes = 0;
   std::vector<Run> runs;
   for (std::size_t block = 0; block < blocks; block += stride, ++probes) {
@@ -75,14 +82,17 @@ refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfB
     tree.collectRuns(box, reach(radius(block), box), runs);
     for (const Run& run : runs)
       candidates += static_cast<double>(run.end - run.begin);
+    run_count += static_cast<double>(runs.size());
   }
   const double per_point = probes > 0 ? candidates / static_cast<double>(probes) : 0.0;
   const double pairs = per_point * static_cast<double>(queries.size);
-  if (per_point > kManyCandidates && pairs > kMostCandidatePairs)
-    throw ExcessiveWork("the radius holds about " + std::to_string(static_cast<long long>(per_point)) +
-                        " candidates a point, " + std::to_string(static_cast<long long>(pairs / 1e9)) +
-                        " billion pairs and roughly " + std::to_string(static_cast<long long>(pairs * kSecondsPerCandidate)) +
-                        " s an iteration; choose a smaller radius");
+  if (!(per_point > kManyCandidates && pairs > kMostCandidatePairs))
+    return;
+  const double bytes = run_count / static_cast<double>(probes) * static_cast<double>(blocks) * sizeof(Run) +
+                       static_cast<double>(blocks) * sizeof(std::size_t);
+  throw ExcessiveWork("the radius holds about " + rounded(per_point) + " candidates a point, " + rounded(pairs / 1e9) +
+                      " billion pairs: roughly " + rounded(pairs * kSecondsPerCandidate) + " s an iteration on one thread and " +
+                      rounded(bytes / 1e6) + " MB of lists; choose a smaller radius");
 }
 
 template <typename RadiusOfBlock>
