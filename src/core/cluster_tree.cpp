@@ -50,28 +50,57 @@ hilbertKey(std::array<std::uint32_t, 3> cell)
   return key;
 }
 
-/** Stable least-significant-digit radix sort of values by 63-bit keys; digits that all keys share are skipped. */
-void
-radixSort(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& values)
+constexpr unsigned kDigitBits = 11;
+constexpr std::size_t kBuckets = std::size_t{1} << kDigitBits;
+using Histogram = std::array<std::uint32_t, kBuckets>;
+
+std::size_t
+digitOf(std::uint64_t key, unsigned shift)
 {
-  constexpr unsigned kDigitBits = 11;
-  constexpr std::size_t kBuckets = std::size_t{1} << kDigitBits;
+  return (key >> shift) & (kBuckets - 1);
+}
+
+/** Turns the counts of each block into the place of its first element of each bucket. \return false when one bucket holds all */
+bool
+placesFromCounts(std::vector<Histogram>& blocks, std::size_t size)
+{
+  std::uint32_t sum = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+    const std::uint32_t before = sum;
+    for (Histogram& block : blocks)
+      sum += std::exchange(block[bucket], sum);
+    if (sum - before == size)
+      return false;
+  }
+  return true;
+}
+
+/** Stable least-significant-digit radix sort of values by 63-bit keys; digits that all keys share are skipped. Every fixed block
+ * counts and moves its own elements, so that blocks run in parallel and the result is that of one. */
+void
+radixSort(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& values, std::size_t threads)
+{
+  constexpr std::size_t kBlock = 65536;
   std::vector<std::uint64_t> other_keys(keys.size());
   std::vector<std::uint32_t> other_values(values.size());
+  std::vector<Histogram> places((keys.size() + kBlock - 1) / kBlock);
   for (unsigned shift = 0; shift < 63; shift += kDigitBits) {
-    std::array<std::size_t, kBuckets> start{};
-    for (const std::uint64_t key : keys)
-      ++start[(key >> shift) & (kBuckets - 1)];
-    if (start[(keys.front() >> shift) & (kBuckets - 1)] == keys.size())
+    parallelBlocks(keys.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+      Histogram& counts = places[begin / kBlock];
+      counts.fill(0);
+      for (std::size_t i = begin; i < end; ++i)
+        ++counts[digitOf(keys[i], shift)];
+    });
+    if (!placesFromCounts(places, keys.size()))
       continue;
-    std::size_t sum = 0;
-    for (std::size_t& bucket : start)
-      sum += std::exchange(bucket, sum);
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      const std::size_t target = start[(keys[i] >> shift) & (kBuckets - 1)]++;
-      other_keys[target] = keys[i];
-      other_values[target] = values[i];
-    }
+    parallelBlocks(keys.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+      Histogram& next = places[begin / kBlock];
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t target = next[digitOf(keys[i], shift)]++;
+        other_keys[target] = keys[i];
+        other_values[target] = values[i];
+      }
+    });
     keys.swap(other_keys);
     values.swap(other_values);
   }
@@ -143,7 +172,7 @@ hilbertOrder(PointsView points, std::size_t threads)
       order[i] = static_cast<std::uint32_t>(i);
     }
   });
-  radixSort(keys, order);
+  radixSort(keys, order, threads);
   return order;
 }
 

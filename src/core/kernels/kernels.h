@@ -58,6 +58,7 @@ struct Projection {
   Real normal_floor = 0;
   const Real* data_weight = nullptr;  ///< 1 / denominator of eq. 3, or the number of merged points; null, with density null: all 1
   const Real* data_density = nullptr; ///< 1 / rho; null: all 1
+  std::size_t first_output = 0;       ///< query whose results go to the first place of the arrays below
   Real* weight_sum = nullptr;         ///< sum of weights
   MutableVectors<Real> pull;          ///< sum of weight * (d.n) n
   bool variance = false;              ///< also the sums of eq. 11; needs data_weight

@@ -112,14 +112,15 @@ struct ProjectionSum {
   {
     if (kSymmetric)
       addScaled<D>(pull, dot<D>(own_offset, query_normal), query_normal);
-    hn::StoreU(weight_sum, d, a.weight_sum + first);
-    storeQueries(d, a.pull, first, pull);
+    const std::size_t place = first - a.first_output;
+    hn::StoreU(weight_sum, d, a.weight_sum + place);
+    storeQueries(d, a.pull, place, pull);
     if (kVariance) {
-      hn::StoreU(posterior_sum, d, a.posterior_sum + first);
-      hn::StoreU(residual_sq, d, a.residual_sq + first);
-      storeQueries(d, a.cross, first, cross);
-      storeQueries(d, a.scatter_diagonal, first, diagonal);
-      storeQueries(d, a.scatter_mixed, first, mixed);
+      hn::StoreU(posterior_sum, d, a.posterior_sum + place);
+      hn::StoreU(residual_sq, d, a.residual_sq + place);
+      storeQueries(d, a.cross, place, cross);
+      storeQueries(d, a.scatter_diagonal, place, diagonal);
+      storeQueries(d, a.scatter_mixed, place, mixed);
     }
   }
 };

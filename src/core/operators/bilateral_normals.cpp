@@ -75,10 +75,10 @@ normalise(const SortedVectors<float>& before, const float* weights, SortedVector
 }
 
 SortedVectors<float>
-unitVectors(VectorsView normals)
+unitVectors(VectorsView normals, std::size_t threads)
 {
   SortedVectors<float> unit(normals.size);
-  for (std::size_t i = 0; i < normals.size; ++i) {
+  const auto one = [&](std::size_t i) {
     const double x = normals.x[i], y = normals.y[i], z = normals.z[i];
     const double length = std::sqrt(x * x + y * y + z * z);
     // A unit vector stays what it is to the last bit.
@@ -86,7 +86,11 @@ unitVectors(VectorsView normals)
     unit.x[i] = static_cast<float>(x * scale);
     unit.y[i] = static_cast<float>(y * scale);
     unit.z[i] = static_cast<float>(z * scale);
-  }
+  };
+  parallelBlocks(normals.size, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      one(i);
+  });
   return unit;
 }
 
@@ -265,7 +269,7 @@ filterNormalsBilaterally(const BilateralNormalsParameters& parameters, const Poi
   validate(parameters);
   if (parameters.radius <= 0.0 && parameters.neighbors == 0)
     throw InvalidParameter("bilateral radius or neighbors must be set; both are 0");
-  SortedVectors<float> current = unitVectors(normals);
+  SortedVectors<float> current = unitVectors(normals, resolveThreads(parameters.number_of_threads));
   const std::size_t count = points.size();
   BilateralNormalsStatistics statistics;
   NormalRounds(parameters, points, progress).run(current, search, statistics);

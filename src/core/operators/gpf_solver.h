@@ -29,6 +29,9 @@ struct GPFState::Implementation {
   normals(MutableVectorsView out) const = 0;
   virtual std::vector<std::uint8_t>
   isolated() const = 0;
+  /** Frees the lists of neighbours; a further step would make them anew. */
+  virtual void
+  releaseNeighborhoods() = 0;
 };
 
 /** The recursion of Algorithm 1 on points sorted along a Hilbert curve. */
@@ -61,6 +64,8 @@ public:
   }
   std::vector<std::uint8_t>
   isolated() const override;
+  void
+  releaseNeighborhoods() override;
 
 private:
   struct DataSums;
@@ -90,16 +95,18 @@ private:
   mergeData();
   void
   evaluatePosteriorDenominators();
-  DataSums
-  evaluateDataTerm();
+  kernels::Projection<Real>
+  dataTerm() const;
   RepulsionSums
   evaluateRepulsion();
   bool
   isIsolated(std::size_t m, double weight) const;
   Step
-  stepOf(std::size_t m, const DataSums& data, const RepulsionSums& repulsion, double mu) const;
+  stepOf(std::size_t m, const DataSums& data, std::size_t place, const RepulsionSums& repulsion, double mu) const;
+  void
+  moveBlock(std::size_t begin, std::size_t end, const DataSums& data, const RepulsionSums& repulsion, MoveSums& sum);
   IterationStats
-  move(const DataSums& data, const RepulsionSums& repulsion);
+  move(const RepulsionSums& repulsion);
   IterationStats
   finishIteration(const MoveSums& total);
   double
