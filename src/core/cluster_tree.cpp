@@ -138,6 +138,71 @@ curveBox(PointsView points)
   return denseBox(box, points.size, [&](std::size_t i, std::size_t axis) { return static_cast<double>(axes[axis][i]); });
 }
 
+/** The k nearest of the points seen so far, and some more until there are enough of these to be worth a partition. */
+class NearestEntries {
+public:
+  using Entry = std::pair<float, std::uint32_t>; ///< squared distance and index
+
+  explicit NearestEntries(std::size_t k) : k_(k), capacity_(k + std::max<std::size_t>(16, k / 2)) { entries_.reserve(capacity_); }
+
+  /** No point at or beyond this squared distance is wanted. */
+  float bound() const { return bound_; }
+  void
+  add(float distance_sq, std::uint32_t index)
+  {
+    if (!(distance_sq < bound_))
+      return;
+    entries_.emplace_back(distance_sq, index);
+    if (entries_.size() == capacity_)
+      prune();
+  }
+  const std::vector<Entry>&
+  sorted()
+  {
+    if (entries_.size() > k_)
+      prune();
+    std::sort(entries_.begin(), entries_.end());
+    return entries_;
+  }
+
+private:
+  void
+  prune()
+  {
+    std::nth_element(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(k_ - 1), entries_.end());
+    entries_.resize(k_);
+    bound_ = entries_.back().first;
+  }
+
+  std::size_t k_, capacity_;
+  float bound_ = std::numeric_limits<float>::infinity();
+  std::vector<Entry> entries_;
+};
+
+/** The stretches of ones in a byte. */
+struct BitSegments {
+  std::uint8_t count = 0;
+  std::uint8_t begin[4] = {}, end[4] = {};
+};
+
+constexpr std::array<BitSegments, 256>
+makeBitSegments()
+{
+  std::array<BitSegments, 256> table{};
+  for (unsigned byte = 0; byte < 256; ++byte)
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      BitSegments& segments = table[byte];
+      const bool set = (byte >> bit & 1u) != 0, set_before = bit > 0 && (byte >> (bit - 1) & 1u) != 0;
+      if (set && !set_before)
+        segments.begin[segments.count++] = static_cast<std::uint8_t>(bit);
+      if (set)
+        segments.end[segments.count - 1] = static_cast<std::uint8_t>(bit + 1);
+    }
+  return table;
+}
+
+constexpr std::array<BitSegments, 256> kBitSegments = makeBitSegments();
+
 /** near[k]: which of the 8 boxes of packs[nodes[k]] come within `radius` of `box`, a bit each. */
 void
 findNear(const std::vector<BoxPack>& packs, const std::vector<std::uint32_t>& nodes, const FloatBox& box, float radius,
@@ -254,18 +319,17 @@ ClusterTree::collectRuns(const std::vector<std::uint32_t>& groups, const FloatBo
 {
   std::vector<std::uint8_t> near;
   findNear(levels_.front(), groups, box, radius, near);
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    for (unsigned bits = near[k], c = 0; bits != 0; bits >>= 1, ++c) {
-      if ((bits & 1u) == 0)
-        continue;
-      const std::size_t child = groups[k] * kFanout + c;
-      const auto begin = static_cast<std::uint32_t>(child * kClusterSize);
-      const auto end = static_cast<std::uint32_t>(std::min(size_, (child + 1) * kClusterSize));
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const BitSegments& segments = kBitSegments[near[k]];
+    for (std::size_t s = 0; s < segments.count; ++s) {
+      const auto begin = static_cast<std::uint32_t>((groups[k] * kFanout + segments.begin[s]) * kClusterSize);
+      const auto end = static_cast<std::uint32_t>(std::min(size_, (groups[k] * kFanout + segments.end[s]) * kClusterSize));
       if (!runs.empty() && runs.back().end == begin)
         runs.back().end = end;
       else
         runs.push_back({begin, end});
     }
+  }
 }
 
 void
@@ -291,9 +355,8 @@ ClusterTree::nearest(PointsView sorted,
   k = std::min(k, size_);
   if (k == 0)
     return;
-  using Entry = std::pair<float, std::uint32_t>;
-  std::vector<Entry> best; // heap, farthest first
-  struct Node {            // heap below, nearest box first; level 0 is a cluster
+  NearestEntries best(k);
+  struct Node { // heap, nearest box first; level 0 is a cluster
     float gap_sq;
     std::uint32_t index;
     std::uint8_t level;
@@ -304,21 +367,13 @@ ClusterTree::nearest(PointsView sorted,
     std::pop_heap(queue.begin(), queue.end());
     const Node node = queue.back();
     queue.pop_back();
-    if (best.size() == k && node.gap_sq >= best.front().first)
+    if (node.gap_sq >= best.bound())
       break;
     if (node.level == 0) {
       const std::size_t end = std::min(size_, (node.index + std::size_t{1}) * kClusterSize);
       for (std::size_t i = node.index * kClusterSize; i < end; ++i) {
         const float dx = sorted.x[i] - query[0], dy = sorted.y[i] - query[1], dz = sorted.z[i] - query[2];
-        const float distance_sq = dx * dx + dy * dy + dz * dz;
-        if (best.size() == k) {
-          if (distance_sq >= best.front().first)
-            continue;
-          std::pop_heap(best.begin(), best.end());
-          best.pop_back();
-        }
-        best.emplace_back(distance_sq, static_cast<std::uint32_t>(i));
-        std::push_heap(best.begin(), best.end());
+        best.add(dx * dx + dy * dy + dz * dz, static_cast<std::uint32_t>(i));
       }
       continue;
     }
@@ -329,14 +384,13 @@ ClusterTree::nearest(PointsView sorted,
         const float gap = std::max(0.0f, std::max(children.min[axis][c] - query[axis], query[axis] - children.max[axis][c]));
         gap_sq += gap * gap;
       }
-      if (gap_sq < std::numeric_limits<float>::infinity() && (best.size() < k || gap_sq < best.front().first)) {
+      if (gap_sq < best.bound()) {
         queue.push_back({gap_sq, static_cast<std::uint32_t>(node.index * kFanout + c), static_cast<std::uint8_t>(node.level - 1)});
         std::push_heap(queue.begin(), queue.end());
       }
     }
   }
-  std::sort_heap(best.begin(), best.end());
-  for (const Entry& entry : best) {
+  for (const NearestEntries::Entry& entry : best.sorted()) {
     distances_sq.push_back(entry.first);
     if (indices)
       indices->push_back(entry.second);
