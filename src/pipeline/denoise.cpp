@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/parallel.h>
 
 #include "packed_cloud.h"
 
 #include <chrono>
 #include <limits>
+#include <utility>
 
 namespace pcl_gpf {
 
@@ -30,9 +32,15 @@ estimateMissingNormals(const PlaneNormalsParameters& parameters, Packed& packed)
 {
   if (packed.missing_normals.empty())
     return;
+  std::vector<std::uint32_t> missing;
+  missing.swap(packed.missing_normals); // frees them, too
+  if (missing.size() == packed.rows.size()) {
+    estimatePlaneNormals(parameters, *packed.index, packed.normals.view());
+    return;
+  }
   SoaBuffer estimated(packed.rows.size());
   estimatePlaneNormals(parameters, *packed.index, estimated.view());
-  for (const std::uint32_t k : packed.missing_normals) {
+  for (const std::uint32_t k : missing) {
     packed.normals.x[k] = estimated.x[k];
     packed.normals.y[k] = estimated.y[k];
     packed.normals.z[k] = estimated.z[k];
@@ -115,7 +123,7 @@ denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageP
     stats.mean_movement = packed.frame.lengthToWorld(stats.mean_movement);
     stats.max_movement = packed.frame.lengthToWorld(stats.max_movement);
   }
-  unpack(input, packed, state, samples, result);
+  unpack(input, std::move(packed), std::move(state), samples, resolveThreads(parameters.number_of_threads), result);
   result.seconds_filter = watch.lap();
   return result;
 }

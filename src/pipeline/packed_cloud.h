@@ -35,9 +35,9 @@ packNormals(const DenoiseInput& input, Packed& packed);
 std::vector<std::uint32_t>
 drawSamples(const GPFParameters& gpf, const Packed& packed);
 
-/** Results of the recursion in ascending order of input rows. */
+/** Results of the recursion in ascending order of input rows; cloud and state are given up, so that the result takes their room. */
 void
-unpack(const DenoiseInput& input, const Packed& packed, const GPFState& state, const std::vector<std::uint32_t>& samples,
+unpack(const DenoiseInput& input, Packed packed, GPFState state, const std::vector<std::uint32_t>& samples, std::size_t threads,
        DenoiseResult& result);
 
 } // namespace pcl_gpf
