@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "measure.h"
+
+#include <pcl_gpf/core/analysis/metrics.h>
+#include <pcl_gpf/core/analysis/point_distance.h>
+#include <pcl_gpf/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_gpf::quality {
+
+namespace {
+
+constexpr std::uint64_t kReferenceSeed = 12345;
+constexpr double kDegrees = 57.295779513082321;
+
+double
+meanOf(const std::vector<double>& values)
+{
+  double sum = 0;
+  for (const double v : values)
+    sum += v;
+  return values.empty() ? Figures::kNone : sum / static_cast<double>(values.size());
+}
+
+/** Finite points of a result and what the surface is like at each. */
+struct Located {
+  std::vector<std::size_t> rows; ///< of the result
+  std::vector<SurfaceHit> hits;
+  std::vector<double> edge_distances;
+};
+
+Located
+locate(const Surface& surface, const std::vector<Position>& points, unsigned threads)
+{
+  Located at;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (isMeasurable(points[i]))
+      at.rows.push_back(i);
+  at.hits.resize(at.rows.size());
+  at.edge_distances.resize(at.rows.size());
+  parallelBlocks(at.rows.size(), 256, resolveThreads(threads), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      at.hits[k] = surface.nearest(points[at.rows[k]]);
+      at.edge_distances[k] = surface.edgeDistance(points[at.rows[k]]);
+    }
+  });
+  return at;
+}
+
+/** Distances to the surface: the headline figures leave out the outliers that stayed far away. */
+void
+measureDistances(const NoisyCloud& cloud, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
+{
+  const double diagonal = cloud.model.surface->diagonal(), unit = 1e4 / diagonal;
+  std::vector<double> all, counted, inliers, edge, squares;
+  for (std::size_t k = 0; k < at.rows.size(); ++k) {
+    const double d = at.hits[k].signed_distance * unit;
+    const bool outlier = !result.seeds.empty() && cloud.is_outlier[result.seeds[at.rows[k]]] != 0;
+    all.push_back(std::abs(d));
+    if (!outlier)
+      inliers.push_back(std::abs(d));
+    if (outlier && std::abs(d) > 1e4 * options.outlier_reach)
+      continue;
+    counted.push_back(d);
+    squares.push_back(1e-8 * d * d);
+    if (at.edge_distances[k] < options.edge_band * diagonal)
+      edge.push_back(std::abs(d));
+  }
+  f.mean_all = meanOf(all);
+  f.mean_inliers = meanOf(inliers);
+  f.mean_square = meanOf(squares);
+  f.edge_mean = meanOf(edge);
+  if (std::any_of(at.edge_distances.begin(), at.edge_distances.end(), [](double d) { return std::isfinite(d); }))
+    f.edge_share = static_cast<double>(edge.size()) / static_cast<double>(counted.size());
+  if (counted.empty())
+    return;
+  const DistanceSummary summary = summarizeDistances(counted);
+  f.mean = summary.mean;
+  f.rms = summary.rms;
+  f.p95 = summary.p95;
+  f.max = summary.max;
+  f.signed_mean = summary.signed_mean;
+}
+
+void
+measureCoverage(const Surface& surface, const std::vector<Position>& points, const MeasureOptions& options, Figures& f)
+{
+  const double diagonal = surface.diagonal(), unit = 1e4 / diagonal;
+  const PointDistance distance(points);
+  std::vector<Position> references;
+  for (const SurfaceSample& s : surface.sample(options.references, kReferenceSeed))
+    references.push_back(s.point);
+  f.coverage = unit * meanOf(distance.distances(references, options.threads));
+  constexpr double kEdgeStep = 1e-3;
+  f.edge_coverage = unit * meanOf(distance.distances(surface.edgeSamples(kEdgeStep * diagonal), options.threads));
+}
+
+/** Angles between lines: the sign of a normal does not count. */
+void
+measureNormals(const NoisyCloud& cloud, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
+{
+  if (result.normals.empty())
+    return;
+  std::vector<double> all, edge;
+  for (std::size_t k = 0; k < at.rows.size(); ++k) {
+    const Position n = normalized(result.normals[at.rows[k]]);
+    if (!(length(n) > 0.5)) // zero or NaN
+      continue;
+    all.push_back(kDegrees * std::acos(std::min(std::abs(dot(n, at.hits[k].normal)), 1.0)));
+    if (at.edge_distances[k] < options.edge_band * cloud.model.surface->diagonal())
+      edge.push_back(all.back());
+  }
+  f.normal_error = meanOf(all);
+  f.normal_error_edge = meanOf(edge);
+}
+
+void
+measureMovement(const NoisyCloud& cloud, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
+{
+  if (result.seeds.empty())
+    return;
+  std::vector<double> moves, away;
+  for (const std::size_t row : at.rows) {
+    const std::uint32_t seed = result.seeds[row];
+    if (cloud.is_outlier[seed] != 0)
+      continue;
+    moves.push_back(length(subtract(result.points[row], cloud.points[seed])) / cloud.spacing);
+    const Position& p = cloud.clean[seed].point;
+    const Surface& surface = *cloud.model.surface;
+    if (std::min(surface.edgeDistance(p), surface.boundaryDistance(p)) > options.away_from_edges * cloud.spacing)
+      away.push_back(moves.back());
+  }
+  f.movement = meanOf(moves);
+  f.movement_away = meanOf(away);
+}
+
+void
+measureSheets(const NoisyCloud& cloud, const MethodResult& result, const Located& at, Figures& f)
+{
+  if (!(cloud.model.sheet_gap > 0) || result.seeds.empty())
+    return;
+  std::vector<double> wrong, middle;
+  for (std::size_t k = 0; k < at.rows.size(); ++k) {
+    const std::uint32_t seed = result.seeds[at.rows[k]];
+    if (cloud.is_outlier[seed] != 0)
+      continue;
+    wrong.push_back(at.hits[k].part != cloud.clean[seed].part);
+    middle.push_back(std::abs(result.points[at.rows[k]][2]) < cloud.model.sheet_gap / 6);
+  }
+  f.wrong_sheet = meanOf(wrong);
+  f.middle_of_gap = meanOf(middle);
+}
+
+/** Against the clean points, whose outermost lie inside the boundary by chance too. */
+void
+measureRecession(const NoisyCloud& cloud, const MethodResult& result, Figures& f)
+{
+  if (cloud.model.surface->closed())
+    return;
+  std::vector<Position> clean;
+  for (const SurfaceSample& s : cloud.clean)
+    clean.push_back(s.point);
+  const double window = 2 * cloud.spacing;
+  f.recession = (boundaryInset(*cloud.model.surface, result.points, window) - boundaryInset(*cloud.model.surface, clean, window)) /
+                cloud.spacing;
+}
+
+} // namespace
+
+double
+boundaryInset(const Surface& surface, const std::vector<Position>& points, double window)
+{
+  std::vector<double> insets;
+  const double depth = 10 * window; // far enough to find some point
+  for (const BoundarySample& b : surface.boundarySamples(2 * window)) {
+    double farthest = -depth;
+    for (const Position& p : points) {
+      const Position v = subtract(p, b.point);
+      const double outwards = dot(v, b.outward);
+      if (outwards > farthest && std::abs(dot(v, b.along)) < window && length(v) < depth)
+        farthest = outwards;
+    }
+    insets.push_back(-farthest);
+  }
+  return meanOf(insets);
+}
+
+Figures
+measure(const NoisyCloud& cloud, const MethodResult& result, const MeasureOptions& options)
+{
+  Figures f;
+  f.points = static_cast<double>(result.points.size());
+  f.seconds = result.seconds;
+  f.processor_seconds = result.processor_seconds;
+  const Located at = locate(*cloud.model.surface, result.points, options.threads);
+  f.not_finite = static_cast<double>(result.points.size() - at.rows.size());
+  if (at.rows.empty())
+    return f;
+  measureDistances(cloud, result, at, options, f);
+  measureCoverage(*cloud.model.surface, result.points, options, f);
+  measureNormals(cloud, result, at, options, f);
+  measureMovement(cloud, result, at, options, f);
+  measureSheets(cloud, result, at, f);
+  measureRecession(cloud, result, f);
+  return f;
+}
+
+} // namespace pcl_gpf::quality
