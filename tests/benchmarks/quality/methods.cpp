@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "methods.h"
 #include "parameter_changes.h"
+#include "peer_variants.h"
+#include "stopwatch.h"
 
 #include <pcl_gpf/pipeline/denoise.h>
 
-#include <chrono>
-#include <ctime>
 #include <stdexcept>
 
 namespace pcl_gpf::quality {
@@ -44,11 +44,9 @@ runDenoise(const NoisyCloud& cloud, const DenoiseParameters& parameters)
   input.z = axes[2].data();
   input.size = cloud.points.size();
   MethodResult result;
-  const std::clock_t processor_start = std::clock();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const DenoiseResult made = denoise(input, parameters);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.processor_seconds = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
+  watch.writeTo(result);
   for (std::size_t i = 0; i < made.x.size(); ++i) {
     result.points.push_back({made.x[i], made.y[i], made.z[i]});
     result.normals.push_back({made.normal_x[i], made.normal_y[i], made.normal_z[i]});
@@ -86,6 +84,8 @@ makeMethod(const std::string& name)
     return {name, {{"", [](const NoisyCloud& cloud, unsigned) { return identity(cloud.points); }}}};
   if (name == "clean")
     return {name, {{"", cleanPoints}}};
+  if (Method peer = {name, peerVariants(name)}; !peer.variants.empty())
+    return peer;
   throw std::invalid_argument("there is no method \"" + name + "\"; there are\n" + describeMethods());
 }
 
@@ -96,6 +96,9 @@ describeMethods()
          "  clean                   the points before the noise: the floor of cov and ecov\n"
          "  ours                    the chain as denoise() runs it, no parameter given\n"
          "  paper                   Algorithm 1 as printed, GPFParameters::paper()\n"
+         "  mls, jet                pcl::MovingLeastSquares, CGAL's jet smoothing, and below CGAL's bilateral smoothing and WLOP,\n"
+         "  bilateral, wlop         without tuning; with -best behind, the best of a grid of settings for each cloud\n"
+         "                          (need a build with PCL_GPF_BENCHMARK_PEERS)\n"
          "  ours:CHANGE+CHANGE      the same with parameters changed (also paper:...), CHANGE one of\n" +
          describeChanges();
 }
