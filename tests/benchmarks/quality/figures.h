@@ -22,7 +22,7 @@ struct Figures {
   // degrees
   double normal_error = kNone, normal_error_edge = kNone;
   // mean spacings
-  double movement = kNone, movement_away = kNone, recession = kNone;
+  double movement = kNone, movement_away = kNone, recession = kNone, boundary_pull = kNone;
   // others
   double points = 0, not_finite = 0;
   double mean_square = kNone; ///< of distance / diagonal, the paper's error
@@ -55,6 +55,7 @@ constexpr FigureColumn kFigureColumns[] = {
     {"move", &Figures::movement, "%.4f"},
     {"move_away", &Figures::movement_away, "%.5f"},
     {"recede", &Figures::recession, "%+.2f"},
+    {"pull", &Figures::boundary_pull, "%+.3f"},
     {"wrong", &Figures::wrong_sheet, "%.4f"},
     {"middle", &Figures::middle_of_gap, "%.4f"},
     {"bad", &Figures::not_finite, "%.0f"},

@@ -167,6 +167,28 @@ measureRecession(const NoisyCloud& cloud, const MethodResult& result, Figures& f
                 cloud.spacing;
 }
 
+/** How far points near the boundary went away from it, tangentially. */
+void
+measurePull(const NoisyCloud& cloud, const MethodResult& result, const Located& at, Figures& f)
+{
+  const Surface& surface = *cloud.model.surface;
+  if (surface.closed() || result.seeds.empty())
+    return;
+  const std::vector<BoundarySample> boundary = surface.boundarySamples(0.25 * cloud.spacing);
+  std::vector<Position> on_boundary;
+  for (const BoundarySample& b : boundary)
+    on_boundary.push_back(b.point);
+  const PointDistance distance(on_boundary);
+  std::vector<double> pulls;
+  for (const std::size_t row : at.rows) {
+    const std::uint32_t seed = result.seeds[row];
+    const PointDistance::Nearest nearest = distance.nearest(cloud.clean[seed].point);
+    if (cloud.is_outlier[seed] == 0 && nearest.distance < 2 * cloud.spacing)
+      pulls.push_back(-dot(subtract(result.points[row], cloud.points[seed]), boundary[nearest.index].outward) / cloud.spacing);
+  }
+  f.boundary_pull = meanOf(pulls);
+}
+
 } // namespace
 
 double
@@ -204,6 +226,7 @@ measure(const NoisyCloud& cloud, const MethodResult& result, const MeasureOption
   measureMovement(cloud, result, at, options, f);
   measureSheets(cloud, result, at, f);
   measureRecession(cloud, result, f);
+  measurePull(cloud, result, at, f);
   return f;
 }
 

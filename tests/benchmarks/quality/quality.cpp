@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "charts.h"
 #include "experiment.h"
 #include "options.h"
 #include "report.h"
+#include "targets.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -14,25 +18,62 @@ namespace {
 
 using namespace pcl_gpf::quality;
 
+/** Lines of CSV as they come; nothing when no file is wanted. */
+class CsvFile {
+public:
+  explicit CsvFile(const std::string& path) : path_(path)
+  {
+    if (!path.empty())
+      file_.open(path);
+    write(csvHeading());
+  }
+  void
+  write(const std::string& line)
+  {
+    if (path_.empty())
+      return;
+    file_ << line << std::endl; // flushed, so that a run that is stopped leaves what it has
+    if (!file_)
+      throw std::runtime_error(path_ + " cannot be written");
+  }
+
+private:
+  std::string path_;
+  std::ofstream file_;
+};
+
+void
+writeCharts(const std::string& folder, const std::vector<Record>& records)
+{
+  std::filesystem::create_directories(folder);
+  for (const Chart& chart : drawCharts(records)) {
+    const std::filesystem::path path = std::filesystem::path(folder) / chart.file_name;
+    std::ofstream file(path);
+    file << chart.svg << std::flush;
+    if (!file)
+      throw std::runtime_error(path.string() + " cannot be written");
+    std::printf("%s\n", path.c_str());
+  }
+}
+
 int
 run(const Options& options)
 {
-  std::ofstream csv;
-  if (!options.csv.empty()) {
-    csv.open(options.csv);
-    csv << csvHeading() << std::endl;
-    if (!csv)
-      throw std::runtime_error(options.csv + " cannot be written");
-  }
-  std::puts(tableHeading().c_str());
-  runExperiment(options, [&](const Record& record) {
+  CsvFile csv(options.csv);
+  const auto report = [&](const Record& record) {
     std::puts(tableLine(record).c_str());
     std::fflush(stdout);
-    if (csv.is_open())
-      csv << csvLine(record) << std::endl;
-  });
-  if (csv.is_open() && !csv)
-    throw std::runtime_error(options.csv + " could not be written completely");
+    csv.write(csvLine(record));
+  };
+  std::puts(tableHeading().c_str());
+  if (options.targets) {
+    const std::vector<TargetResult> results = runTargets(options, report);
+    std::printf("\n%s", targetTable(results).c_str());
+    return std::all_of(results.begin(), results.end(), [](const TargetResult& r) { return r.holds(); }) ? 0 : 1;
+  }
+  const std::vector<Record> records = runExperiment(options, report);
+  if (!options.svg_dir.empty())
+    writeCharts(options.svg_dir, records);
   return 0;
 }
 
