@@ -55,7 +55,8 @@ panelOf(const std::vector<const Record*>& records, double Figures::*value, const
   panel.y_label = "1e-4 of the diagonal";
   for (const Record* r : records) {
     const std::size_t style = styleFor(r->method, styles);
-    if (!(r->noise.percent > 0) || !(r->figures.*value > 0)) // NaN: does not apply
+    constexpr double kLeast = 1e-3; // of the unit: nothing but rounding lies below
+    if (!(r->noise.percent > 0) || !(r->figures.*value > kLeast)) // NaN: does not apply
       continue;
     auto line = std::find_if(panel.lines.begin(), panel.lines.end(), [&](const Panel::Line& l) { return l.label == r->method; });
     if (line == panel.lines.end())

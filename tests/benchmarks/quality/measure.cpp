@@ -194,17 +194,18 @@ measurePull(const NoisyCloud& cloud, const MethodResult& result, const Located& 
 double
 boundaryInset(const Surface& surface, const std::vector<Position>& points, double window)
 {
+  constexpr double kDepth = 10; // windows
   std::vector<double> insets;
-  const double depth = 10 * window; // far enough to find some point
   for (const BoundarySample& b : surface.boundarySamples(2 * window)) {
-    double farthest = -depth;
+    double farthest = -kDepth * window, nearest = std::numeric_limits<double>::infinity();
     for (const Position& p : points) {
       const Position v = subtract(p, b.point);
-      const double outwards = dot(v, b.outward);
-      if (outwards > farthest && std::abs(dot(v, b.along)) < window && length(v) < depth)
+      const double outwards = dot(v, b.outward), distance = length(v);
+      nearest = std::min(nearest, distance);
+      if (outwards > farthest && std::abs(dot(v, b.along)) < window && distance < kDepth * window)
         farthest = outwards;
     }
-    insets.push_back(-farthest);
+    insets.push_back(farthest > -kDepth * window ? -farthest : nearest); // the latter at the corners of a patch that shrank
   }
   return meanOf(insets);
 }
