@@ -1,7 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiment.h"
+#include "report.h"
+
+#include <algorithm>
 
 namespace pcl_gpf::quality {
+
+namespace {
+
+/** What other filters reach does not change with this project: an earlier record of the same run will do. */
+const Record*
+findEarlier(const std::vector<Record>& earlier, const NoisyCloud& cloud, const std::string& method)
+{
+  if (method.compare(0, 4, "ours") == 0 || method.compare(0, 5, "paper") == 0)
+    return nullptr;
+  const auto found = std::find_if(earlier.begin(), earlier.end(), [&](const Record& r) {
+    return r.model == cloud.model.name && r.size == cloud.points.size() && r.noise.kind == cloud.spec.kind &&
+           r.noise.percent == cloud.spec.percent && r.noise.outliers == cloud.spec.outliers && r.noise.seed == cloud.spec.seed &&
+           r.method == method;
+  });
+  return found == earlier.end() ? nullptr : &*found;
+}
+
+} // namespace
 
 Record
 runMethod(const NoisyCloud& cloud, const Method& method, const MeasureOptions& options)
@@ -27,10 +48,9 @@ runExperiment(const Options& options, const std::function<void(const Record&)>& 
   MeasureOptions measuring;
   measuring.references = options.references;
   measuring.threads = options.threads;
-  std::vector<Method> methods;
-  for (const std::string& name : options.methods)
-    methods.push_back(makeMethod(name));
-  std::vector<Record> records;
+  std::vector<Record> records, earlier;
+  if (!options.reuse.empty())
+    earlier = readCsv(options.reuse);
   for (const std::string& name : options.models)
     for (const std::size_t size : options.sizes) {
       const Model model = makeModel(name, size);
@@ -38,8 +58,9 @@ runExperiment(const Options& options, const std::function<void(const Record&)>& 
         for (const double outliers : options.outliers)
           for (const double percent : options.noises) {
             const NoisyCloud cloud = makeNoisyCloud(model, size, {kind, percent, outliers, options.seed});
-            for (const Method& method : methods) {
-              records.push_back(runMethod(cloud, method, measuring));
+            for (const std::string& method : options.methods) {
+              const Record* const known = findEarlier(earlier, cloud, method);
+              records.push_back(known != nullptr ? *known : runMethod(cloud, makeMethod(method), measuring));
               report(records.back());
             }
           }

@@ -29,39 +29,47 @@ struct Located {
   std::vector<std::size_t> rows; ///< of the result
   std::vector<SurfaceHit> hits;
   std::vector<double> edge_distances;
+  std::vector<std::uint8_t> is_outlier;
+  std::vector<std::uint8_t> counts; ///< for the headline figures: all but the outliers that stayed far away
 };
 
 Located
-locate(const Surface& surface, const std::vector<Position>& points, unsigned threads)
+locate(const NoisyCloud& cloud, const MethodResult& result, const MeasureOptions& options)
 {
+  const Surface& surface = *cloud.model.surface;
   Located at;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (isMeasurable(points[i]))
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    if (isMeasurable(result.points[i]))
       at.rows.push_back(i);
-  at.hits.resize(at.rows.size());
-  at.edge_distances.resize(at.rows.size());
-  parallelBlocks(at.rows.size(), 256, resolveThreads(threads), [&](std::size_t begin, std::size_t end) {
+  const std::size_t count = at.rows.size();
+  at.hits.resize(count);
+  at.edge_distances.resize(count);
+  at.is_outlier.resize(count);
+  at.counts.resize(count);
+  const double reach = options.outlier_reach * surface.diagonal();
+  parallelBlocks(count, 256, resolveThreads(options.threads), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      at.hits[k] = surface.nearest(points[at.rows[k]]);
-      at.edge_distances[k] = surface.edgeDistance(points[at.rows[k]]);
+      const Position& p = result.points[at.rows[k]];
+      at.hits[k] = surface.nearest(p);
+      at.edge_distances[k] = surface.edgeDistance(p);
+      at.is_outlier[k] = !result.seeds.empty() && cloud.is_outlier[result.seeds[at.rows[k]]] != 0;
+      at.counts[k] = at.is_outlier[k] == 0 || std::abs(at.hits[k].signed_distance) <= reach;
     }
   });
   return at;
 }
 
-/** Distances to the surface: the headline figures leave out the outliers that stayed far away. */
 void
-measureDistances(const NoisyCloud& cloud, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
+measureDistances(const Surface& surface, const Located& at, const MeasureOptions& options, Figures& f)
 {
-  const double diagonal = cloud.model.surface->diagonal(), unit = 1e4 / diagonal;
+  const double diagonal = surface.diagonal(), unit = 1e4 / diagonal;
   std::vector<double> all, counted, inliers, edge, squares;
   for (std::size_t k = 0; k < at.rows.size(); ++k) {
     const double d = at.hits[k].signed_distance * unit;
-    const bool outlier = !result.seeds.empty() && cloud.is_outlier[result.seeds[at.rows[k]]] != 0;
     all.push_back(std::abs(d));
-    if (!outlier)
+    if (at.is_outlier[k] == 0)
       inliers.push_back(std::abs(d));
-    if (outlier && std::abs(d) > 1e4 * options.outlier_reach)
+    if (at.counts[k] == 0)
       continue;
     counted.push_back(d);
     squares.push_back(1e-8 * d * d);
@@ -99,17 +107,17 @@ measureCoverage(const Surface& surface, const std::vector<Position>& points, con
 
 /** Angles between lines: the sign of a normal does not count. */
 void
-measureNormals(const NoisyCloud& cloud, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
+measureNormals(const Surface& surface, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
 {
   if (result.normals.empty())
     return;
   std::vector<double> all, edge;
   for (std::size_t k = 0; k < at.rows.size(); ++k) {
     const Position n = normalized(result.normals[at.rows[k]]);
-    if (!(length(n) > 0.5)) // zero or NaN
+    if (at.counts[k] == 0 || !(length(n) > 0.5)) // zero or NaN
       continue;
     all.push_back(kDegrees * std::acos(std::min(std::abs(dot(n, at.hits[k].normal)), 1.0)));
-    if (at.edge_distances[k] < options.edge_band * cloud.model.surface->diagonal())
+    if (at.edge_distances[k] < options.edge_band * surface.diagonal())
       edge.push_back(all.back());
   }
   f.normal_error = meanOf(all);
@@ -121,14 +129,15 @@ measureMovement(const NoisyCloud& cloud, const MethodResult& result, const Locat
 {
   if (result.seeds.empty())
     return;
+  const Surface& surface = *cloud.model.surface;
   std::vector<double> moves, away;
-  for (const std::size_t row : at.rows) {
-    const std::uint32_t seed = result.seeds[row];
-    if (cloud.is_outlier[seed] != 0)
+  for (std::size_t k = 0; k < at.rows.size(); ++k) {
+    if (at.is_outlier[k] != 0)
       continue;
+    const std::size_t row = at.rows[k];
+    const std::uint32_t seed = result.seeds[row];
     moves.push_back(length(subtract(result.points[row], cloud.points[seed])) / cloud.spacing);
     const Position& p = cloud.clean[seed].point;
-    const Surface& surface = *cloud.model.surface;
     if (std::min(surface.edgeDistance(p), surface.boundaryDistance(p)) > options.away_from_edges * cloud.spacing)
       away.push_back(moves.back());
   }
@@ -143,10 +152,9 @@ measureSheets(const NoisyCloud& cloud, const MethodResult& result, const Located
     return;
   std::vector<double> wrong, middle;
   for (std::size_t k = 0; k < at.rows.size(); ++k) {
-    const std::uint32_t seed = result.seeds[at.rows[k]];
-    if (cloud.is_outlier[seed] != 0)
+    if (at.is_outlier[k] != 0)
       continue;
-    wrong.push_back(at.hits[k].part != cloud.clean[seed].part);
+    wrong.push_back(at.hits[k].part != cloud.clean[result.seeds[at.rows[k]]].part);
     middle.push_back(std::abs(result.points[at.rows[k]][2]) < cloud.model.sheet_gap / 6);
   }
   f.wrong_sheet = meanOf(wrong);
@@ -180,10 +188,11 @@ measurePull(const NoisyCloud& cloud, const MethodResult& result, const Located& 
     on_boundary.push_back(b.point);
   const PointDistance distance(on_boundary);
   std::vector<double> pulls;
-  for (const std::size_t row : at.rows) {
+  for (std::size_t k = 0; k < at.rows.size(); ++k) {
+    const std::size_t row = at.rows[k];
     const std::uint32_t seed = result.seeds[row];
     const PointDistance::Nearest nearest = distance.nearest(cloud.clean[seed].point);
-    if (cloud.is_outlier[seed] == 0 && nearest.distance < 2 * cloud.spacing)
+    if (at.is_outlier[k] == 0 && nearest.distance < 2 * cloud.spacing)
       pulls.push_back(-dot(subtract(result.points[row], cloud.points[seed]), boundary[nearest.index].outward) / cloud.spacing);
   }
   f.boundary_pull = meanOf(pulls);
@@ -217,13 +226,13 @@ measure(const NoisyCloud& cloud, const MethodResult& result, const MeasureOption
   f.points = static_cast<double>(result.points.size());
   f.seconds = result.seconds;
   f.processor_seconds = result.processor_seconds;
-  const Located at = locate(*cloud.model.surface, result.points, options.threads);
+  const Located at = locate(cloud, result, options);
   f.not_finite = static_cast<double>(result.points.size() - at.rows.size());
   if (at.rows.empty())
     return f;
-  measureDistances(cloud, result, at, options, f);
+  measureDistances(*cloud.model.surface, at, options, f);
   measureCoverage(*cloud.model.surface, result.points, options, f);
-  measureNormals(cloud, result, at, options, f);
+  measureNormals(*cloud.model.surface, result, at, options, f);
   measureMovement(cloud, result, at, options, f);
   measureSheets(cloud, result, at, f);
   measureRecession(cloud, result, f);

@@ -99,6 +99,7 @@ parseOptions(const std::vector<std::string>& arguments)
       {"--threads", [&](const std::string& v) { o.threads = static_cast<unsigned>(wholeNumber(v)); }},
       {"--references", [&](const std::string& v) { o.references = std::max<std::size_t>(1, wholeNumber(v)); }},
       {"--csv", [&](const std::string& v) { o.csv = v; }},
+      {"--reuse", [&](const std::string& v) { o.reuse = v; }},
       {"--svg-dir", [&](const std::string& v) { o.svg_dir = v; }},
   };
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -110,7 +111,8 @@ parseOptions(const std::vector<std::string>& arguments)
       throw std::invalid_argument(arguments[i] + " is unknown or lacks its value");
   }
   for (const std::string& method : o.methods)
-    makeMethod(method); // refuses unknown names before anything runs
+    if (o.reuse.empty()) // a build without the peers can draw what one with them measured
+      makeMethod(method); // refuses unknown names before anything runs
   return o;
 }
 
@@ -119,6 +121,7 @@ usage()
 {
   return std::string("usage: quality [--models NAME,...] [--noises PERCENT,...] [--kinds KIND,...] [--sizes N,...] [--outliers PERCENT,...]\n"
                      "               [--methods NAME,...] [--seed N] [--threads N] [--references N] [--csv FILE] [--svg-dir DIR]\n"
+                     "               [--reuse FILE: records of other filters in an earlier CSV file are taken instead of running them]\n"
                      "       quality --targets [--seed N] [--threads N] [--csv FILE]\n"
                      "Makes clouds from models, filters them and prints the errors, in 1e-4 of the box diagonal.\n"
                      "models: ") +

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "numbers.h"
 #include "report.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
 
 namespace pcl_gpf::quality {
 
@@ -30,11 +34,35 @@ right(const std::string& text, std::size_t width)
   return std::string(text.size() < width ? width - text.size() : 0, ' ') + text;
 }
 
-/** Quoted when it holds a comma. */
-std::string
-csvText(const std::string& text)
+/** The texts between commas; no value of ours holds a comma. */
+std::vector<std::string>
+fields(const std::string& line)
 {
-  return text.find(',') == std::string::npos ? text : '"' + text + '"';
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    parts.push_back(line.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+Record
+parseLine(const std::string& line)
+{
+  constexpr std::size_t kKeys = 8;
+  const std::vector<std::string> f = fields(line);
+  if (f.size() != kKeys + std::size(kFigureColumns))
+    throw std::invalid_argument("\"" + line + "\" has another number of fields than the heading");
+  Record r;
+  r.model = f[0];
+  r.size = static_cast<std::size_t>(toNumber(f[1]));
+  r.noise = {noiseKind(f[2]), toNumber(f[3]), toNumber(f[4]) / 100, static_cast<std::uint64_t>(toNumber(f[5]))};
+  r.method = f[6];
+  r.setting = f[7];
+  for (std::size_t i = 0; i < std::size(kFigureColumns); ++i)
+    r.figures.*kFigureColumns[i].value = f[kKeys + i].empty() ? Figures::kNone : toNumber(f[kKeys + i]);
+  return r;
 }
 
 } // namespace
@@ -72,14 +100,27 @@ csvHeading()
 std::string
 csvLine(const Record& r)
 {
-  std::string line = csvText(r.model) + print(",%zu,%s,%g,%g,%llu,", r.size, nameOf(r.noise.kind), r.noise.percent,
-                                              100 * r.noise.outliers, static_cast<unsigned long long>(r.noise.seed)) +
-                     csvText(r.method) + "," + csvText(r.setting);
+  std::string line = r.model + print(",%zu,%s,%g,%g,%llu,", r.size, nameOf(r.noise.kind), r.noise.percent, 100 * r.noise.outliers,
+                                     static_cast<unsigned long long>(r.noise.seed)) +
+                     r.method + "," + r.setting;
   for (const FigureColumn& column : kFigureColumns) {
     const double value = r.figures.*column.value;
     line += std::isnan(value) ? "," : print(",%.9g", value);
   }
   return line;
+}
+
+std::vector<Record>
+readCsv(const std::string& path)
+{
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || line != csvHeading())
+    throw std::runtime_error(path + " is not a file that --csv of this version wrote");
+  std::vector<Record> records;
+  while (std::getline(file, line))
+    records.push_back(parseLine(line));
+  return records;
 }
 
 } // namespace pcl_gpf::quality

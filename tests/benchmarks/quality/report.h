@@ -3,8 +3,8 @@
 
 #include "experiment.h"
 
-#include <cstdio>
 #include <string>
+#include <vector>
 
 namespace pcl_gpf::quality {
 
@@ -20,5 +20,8 @@ csvHeading();
 /** \brief A record as a line of CSV; figures that do not apply are empty. */
 std::string
 csvLine(const Record& record);
+/** \brief The records of a file that this program wrote. \throws std::runtime_error when it is not one */
+std::vector<Record>
+readCsv(const std::string& path);
 
 } // namespace pcl_gpf::quality

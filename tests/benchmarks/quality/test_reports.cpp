@@ -8,7 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+
+#include <unistd.h>
 
 namespace pcl_gpf::quality {
 namespace {
@@ -45,6 +51,22 @@ TEST(QualityReport, CsvHasAFieldForEveryHeading)
   const std::string line = csvLine(record("cube", 0.25, "ours", 3.5));
   EXPECT_EQ(fieldsOf(line), fieldsOf(csvHeading()));
   EXPECT_EQ(line.find("cube,33490,gaussian,0.25,0,1,ours,,0,3.5,,"), 0u) << line;
+}
+
+TEST(QualityReport, CsvIsReadAsItWasWritten)
+{
+  const std::string path = ::testing::TempDir() + "quality_" + std::to_string(getpid()) + ".csv";
+  Record r = record("sheets:6", 1.5, "wlop-best", 1.0 / 3);
+  r.noise = {NoiseKind::Scanner, 1.5, 0.05, 7};
+  r.setting = "r 3.00 %";
+  std::ofstream(path) << csvHeading() << "\n" << csvLine(r) << "\n";
+  const std::vector<Record> read = readCsv(path);
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(csvLine(read[0]), csvLine(r));
+  EXPECT_TRUE(std::isnan(read[0].figures.recession));
+  std::ofstream(path) << "x,y\n1,2\n";
+  EXPECT_THROW(readCsv(path), std::runtime_error);
+  std::filesystem::remove(path);
 }
 
 TEST(QualityReport, TableLinesAlignWithTheirHeading)
