@@ -20,8 +20,8 @@ add(Parts& parts, Arguments&&... arguments)
 }
 
 void
-addRectangle(Parts& parts, std::size_t axis, double level, Planar low, Planar high, double sign, std::vector<Circle> circles = {},
-             std::vector<Hole> holes = {})
+addRectangle(Parts& parts, std::size_t axis, double level, Planar low, Planar high, double sign,
+             std::vector<Circle> circles = {}, std::vector<Hole> holes = {})
 {
   add<RectanglePatch>(parts, axis, level, low, high, sign, std::move(circles), std::move(holes));
 }
@@ -84,7 +84,8 @@ block()
   }
   add<CylinderPatch>(parts, kCentre, kRadius, 0.0, kPlate, -1.0);
 
-  const Planar profile[] = {{0, 0}, {kLength, 0}, {kLength, kPlate}, {kUpright, kPlate}, {kUpright, kHeight}, {0, kHeight}};
+  const Planar profile[] = {{0, 0},      {kLength, 0}, {kLength, kPlate}, {kUpright, kPlate}, {kUpright, kHeight},
+                            {0, kHeight}};
   for (std::size_t i = 0; i < 6; ++i) {
     const Planar a = profile[i], b = profile[(i + 1) % 6];
     parts.edges.push_back(Curve::segment({a[0], 0, a[1]}, {b[0], 0, b[1]}));
@@ -119,11 +120,14 @@ struct Boss {
 struct Dome {
   double x, y, rim, height;
   double
-  radius() const { return (rim * rim + height * height) / (2 * height); }
+  radius() const
+  {
+    return (rim * rim + height * height) / (2 * height);
+  }
 };
 
-constexpr Boss kBosses[] = {{.08, .08, .02, .30, .03}, {.15, .08, .04, .30, .03},  {.24, .08, .07, .30, .04},
-                            {.36, .08, .14, .30, .04}, {.08, .48, .42, .02, .03},  {.08, .55, .42, .05, .015},
+constexpr Boss kBosses[] = {{.08, .08, .02, .30, .03}, {.15, .08, .04, .30, .03}, {.24, .08, .07, .30, .04},
+                            {.36, .08, .14, .30, .04}, {.08, .48, .42, .02, .03}, {.08, .55, .42, .05, .015},
                             {.08, .66, .42, .10, .04}, {.08, .82, .42, .10, .02}};
 constexpr Dome kDomes[] = {{.68, .20, .10, .03}, {.86, .36, .06, .03}, {.66, .56, .08, .06}, {.80, .80, .14, .04}};
 

@@ -6,7 +6,8 @@
 
 namespace pcl_gpf::quality {
 
-AnalyticSurface::AnalyticSurface(Parts parts) : parts_(std::move(parts))
+AnalyticSurface::AnalyticSurface(Parts parts)
+    : parts_(std::move(parts))
 {
   box_.add(parts_.box_min[0], parts_.box_min[1], parts_.box_min[2]);
   box_.add(parts_.box_max[0], parts_.box_max[1], parts_.box_max[2]);

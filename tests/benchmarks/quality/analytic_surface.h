@@ -16,30 +16,48 @@ public:
   struct Parts {
     std::vector<std::unique_ptr<Patch>> patches;
     std::vector<Curve> edges;
-    std::vector<Curve> boundary;                  ///< empty: the surface is closed
+    std::vector<Curve> boundary; ///< empty: the surface is closed
     Position box_min{0, 0, 0}, box_max{0, 0, 0};
-    std::function<bool(const Position&)> inside;  ///< gives distances their sign
+    std::function<bool(const Position&)> inside; ///< gives distances their sign
   };
   explicit AnalyticSurface(Parts parts);
 
   BoundingBox
-  box() const override { return box_; }
+  box() const override
+  {
+    return box_;
+  }
   double
-  area() const override { return areas_.back(); }
+  area() const override
+  {
+    return areas_.back();
+  }
   bool
-  closed() const override { return parts_.boundary.empty(); }
+  closed() const override
+  {
+    return parts_.boundary.empty();
+  }
   std::vector<SurfaceSample>
   sample(std::size_t count, std::uint64_t seed) const override;
   SurfaceHit
   nearest(const Position& p) const override;
   double
-  edgeDistance(const Position& p) const override { return distanceToCurves(parts_.edges, p); }
+  edgeDistance(const Position& p) const override
+  {
+    return distanceToCurves(parts_.edges, p);
+  }
   std::vector<Position>
   edgeSamples(double step) const override;
   double
-  boundaryDistance(const Position& p) const override { return distanceToCurves(parts_.boundary, p); }
+  boundaryDistance(const Position& p) const override
+  {
+    return distanceToCurves(parts_.boundary, p);
+  }
   std::vector<BoundarySample>
-  boundarySamples(double step) const override { return sampleCurves(parts_.boundary, step); }
+  boundarySamples(double step) const override
+  {
+    return sampleCurves(parts_.boundary, step);
+  }
 
 private:
   Parts parts_;

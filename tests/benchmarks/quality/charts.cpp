@@ -47,7 +47,8 @@ styleFor(const std::string& method, std::map<std::string, std::size_t>& styles)
 }
 
 Panel
-panelOf(const std::vector<const Record*>& records, double Figures::*value, const char* title, std::map<std::string, std::size_t>& styles)
+panelOf(const std::vector<const Record*>& records, double Figures::*value, const char* title,
+        std::map<std::string, std::size_t>& styles)
 {
   Panel panel;
   panel.title = title;
@@ -55,10 +56,11 @@ panelOf(const std::vector<const Record*>& records, double Figures::*value, const
   panel.y_label = "1e-4 of the diagonal";
   for (const Record* r : records) {
     const std::size_t style = styleFor(r->method, styles);
-    constexpr double kLeast = 1e-3; // of the unit: nothing but rounding lies below
+    constexpr double kLeast = 1e-3;                               // of the unit: nothing but rounding lies below
     if (!(r->noise.percent > 0) || !(r->figures.*value > kLeast)) // NaN: does not apply
       continue;
-    auto line = std::find_if(panel.lines.begin(), panel.lines.end(), [&](const Panel::Line& l) { return l.label == r->method; });
+    auto line = std::find_if(panel.lines.begin(), panel.lines.end(),
+                             [&](const Panel::Line& l) { return l.label == r->method; });
     if (line == panel.lines.end())
       line = panel.lines.insert(line, {r->method, style, {}});
     line->points.emplace_back(r->noise.percent, r->figures.*value);
@@ -84,13 +86,16 @@ drawCharts(const std::vector<Record>& records)
   std::map<std::string, std::size_t> styles = {{"input", 0}, {"clean", 1}, {"ours", 2}};
   std::vector<Chart> charts;
   for (const std::string& name : order) {
-    std::vector<Panel> panels = {panelOf(series[name], &Figures::mean, "mean distance to the surface", styles),
-                                 panelOf(series[name], &Figures::edge_coverage, "sharp edges to the nearest point (ecov)", styles)};
-    panels.erase(std::remove_if(panels.begin(), panels.end(), [](const Panel& p) { return p.lines.empty(); }), panels.end());
+    std::vector<Panel> panels = {
+        panelOf(series[name], &Figures::mean, "mean distance to the surface", styles),
+        panelOf(series[name], &Figures::edge_coverage, "sharp edges to the nearest point (ecov)", styles)};
+    panels.erase(std::remove_if(panels.begin(), panels.end(), [](const Panel& p) { return p.lines.empty(); }),
+                 panels.end());
     std::string title = name;
     std::replace(title.begin(), title.end(), '_', ' ');
     if (!panels.empty())
-      charts.push_back({fileNameOf(name), drawSvg(title + ", " + std::to_string(series[name].front()->size) + " points", panels)});
+      charts.push_back(
+          {fileNameOf(name), drawSvg(title + ", " + std::to_string(series[name].front()->size) + " points", panels)});
   }
   return charts;
 }

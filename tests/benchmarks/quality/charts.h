@@ -14,8 +14,8 @@ struct Chart {
   std::string svg;
 };
 
-/** \brief A chart for each model, kind, size and share of outliers that was run with noise: mean error and, where there are sharp
- * edges, ecov over the noise, one line a method. */
+/** \brief A chart for each model, kind, size and share of outliers that was run with noise: mean error and, where there
+ * are sharp edges, ecov over the noise, one line a method. */
 std::vector<Chart>
 drawCharts(const std::vector<Record>& records);
 

@@ -47,7 +47,8 @@ Curve::samples(double step) const
     for (std::size_t i = 0; i < count; ++i) {
       const double angle = kFullTurn * static_cast<double>(i) / static_cast<double>(count);
       const Position radial = {std::cos(angle), std::sin(angle), 0};
-      samples.push_back({addScaled(start_, radius_, radial), {-radial[1], radial[0], 0},
+      samples.push_back({addScaled(start_, radius_, radial),
+                         {-radial[1], radial[0], 0},
                          {outward_[0] * radial[0], outward_[0] * radial[1], outward_[2]}});
     }
     return samples;
@@ -55,7 +56,8 @@ Curve::samples(double step) const
   const Position along = subtract(end_, start_);
   const auto count = std::max<std::size_t>(2, static_cast<std::size_t>(length(along) / step) + 1);
   for (std::size_t i = 0; i < count; ++i)
-    samples.push_back({addScaled(start_, static_cast<double>(i) / static_cast<double>(count - 1), along), normalized(along), outward_});
+    samples.push_back({addScaled(start_, static_cast<double>(i) / static_cast<double>(count - 1), along),
+                       normalized(along), outward_});
   return samples;
 }
 

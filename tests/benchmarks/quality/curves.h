@@ -10,7 +10,8 @@
  */
 namespace pcl_gpf::quality {
 
-/** \brief A point of a boundary, the direction along it, and the one in the surface's tangent plane that leads off the surface. */
+/** \brief A point of a boundary, the direction along it, and the one in the surface's tangent plane that leads off the
+ * surface. */
 struct BoundarySample {
   Position point, along, outward;
 };

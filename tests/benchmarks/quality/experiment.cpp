@@ -8,16 +8,20 @@ namespace pcl_gpf::quality {
 
 namespace {
 
-/** What other filters reach does not change with this project: an earlier record of the same run will do. */
+bool
+isOtherFilter(const std::string& method)
+{
+  const std::string base = method.substr(0, method.find(':'));
+  return base != "ours" && base != "paper" && base != "input" && base != "clean";
+}
+
 const Record*
 findEarlier(const std::vector<Record>& earlier, const NoisyCloud& cloud, const std::string& method)
 {
-  if (method.compare(0, 4, "ours") == 0 || method.compare(0, 5, "paper") == 0)
-    return nullptr;
   const auto found = std::find_if(earlier.begin(), earlier.end(), [&](const Record& r) {
     return r.model == cloud.model.name && r.size == cloud.points.size() && r.noise.kind == cloud.spec.kind &&
-           r.noise.percent == cloud.spec.percent && r.noise.outliers == cloud.spec.outliers && r.noise.seed == cloud.spec.seed &&
-           r.method == method;
+           r.noise.percent == cloud.spec.percent && r.noise.outliers == cloud.spec.outliers &&
+           r.noise.seed == cloud.spec.seed && r.method == method;
   });
   return found == earlier.end() ? nullptr : &*found;
 }
@@ -59,8 +63,11 @@ runExperiment(const Options& options, const std::function<void(const Record&)>& 
           for (const double percent : options.noises) {
             const NoisyCloud cloud = makeNoisyCloud(model, size, {kind, percent, outliers, options.seed});
             for (const std::string& method : options.methods) {
-              const Record* const known = findEarlier(earlier, cloud, method);
-              records.push_back(known != nullptr ? *known : runMethod(cloud, makeMethod(method), measuring));
+              const bool take = !options.reuse.empty() && isOtherFilter(method); // it does not change with this project
+              const Record* const known = take ? findEarlier(earlier, cloud, method) : nullptr;
+              if (take && known == nullptr)
+                continue;
+              records.push_back(take ? *known : runMethod(cloud, makeMethod(method), measuring));
               report(records.back());
             }
           }

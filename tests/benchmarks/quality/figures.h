@@ -12,9 +12,9 @@ struct Figures {
   // 1e-4 of the box diagonal
   double mean = kNone, rms = kNone, p95 = kNone, max = kNone;
   double signed_mean = kNone;
-  double edge_mean = kNone;     ///< emean
-  double edge_coverage = kNone; ///< ecov
-  double coverage = kNone;      ///< cov
+  double edge_mean = kNone;                      ///< emean
+  double edge_coverage = kNone;                  ///< ecov
+  double coverage = kNone;                       ///< cov
   double mean_all = kNone, mean_inliers = kNone; ///< with all outliers, and without any
   // shares
   double edge_share = kNone; ///< efrac

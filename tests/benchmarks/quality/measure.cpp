@@ -107,7 +107,8 @@ measureCoverage(const Surface& surface, const std::vector<Position>& points, con
 
 /** Angles between lines: the sign of a normal does not count. */
 void
-measureNormals(const Surface& surface, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
+measureNormals(const Surface& surface, const MethodResult& result, const Located& at, const MeasureOptions& options,
+               Figures& f)
 {
   if (result.normals.empty())
     return;
@@ -125,7 +126,8 @@ measureNormals(const Surface& surface, const MethodResult& result, const Located
 }
 
 void
-measureMovement(const NoisyCloud& cloud, const MethodResult& result, const Located& at, const MeasureOptions& options, Figures& f)
+measureMovement(const NoisyCloud& cloud, const MethodResult& result, const Located& at, const MeasureOptions& options,
+                Figures& f)
 {
   if (result.seeds.empty())
     return;
@@ -171,7 +173,8 @@ measureRecession(const NoisyCloud& cloud, const MethodResult& result, Figures& f
   for (const SurfaceSample& s : cloud.clean)
     clean.push_back(s.point);
   const double window = 2 * cloud.spacing;
-  f.recession = (boundaryInset(*cloud.model.surface, result.points, window) - boundaryInset(*cloud.model.surface, clean, window)) /
+  f.recession = (boundaryInset(*cloud.model.surface, result.points, window) -
+                 boundaryInset(*cloud.model.surface, clean, window)) /
                 cloud.spacing;
 }
 
@@ -193,7 +196,8 @@ measurePull(const NoisyCloud& cloud, const MethodResult& result, const Located& 
     const std::uint32_t seed = result.seeds[row];
     const PointDistance::Nearest nearest = distance.nearest(cloud.clean[seed].point);
     if (at.is_outlier[k] == 0 && nearest.distance < 2 * cloud.spacing)
-      pulls.push_back(-dot(subtract(result.points[row], cloud.points[seed]), boundary[nearest.index].outward) / cloud.spacing);
+      pulls.push_back(-dot(subtract(result.points[row], cloud.points[seed]), boundary[nearest.index].outward) /
+                      cloud.spacing);
   }
   f.boundary_pull = meanOf(pulls);
 }
@@ -214,7 +218,8 @@ boundaryInset(const Surface& surface, const std::vector<Position>& points, doubl
       if (outwards > farthest && std::abs(dot(v, b.along)) < window && distance < kDepth * window)
         farthest = outwards;
     }
-    insets.push_back(farthest > -kDepth * window ? -farthest : nearest); // the latter at the corners of a patch that shrank
+    insets.push_back(farthest > -kDepth * window ? -farthest
+                                                 : nearest); // the latter at the corners of a patch that shrank
   }
   return meanOf(insets);
 }

@@ -20,9 +20,9 @@ struct MeasureOptions {
 Figures
 measure(const NoisyCloud& cloud, const MethodResult& result, const MeasureOptions& options);
 
-/** \brief Mean over boundary samples of how far the outermost point lies inside the boundary, in the units of the model: of all points
- * within `window` of the sample along the boundary, the one farthest outwards; the distance of the nearest point where there is none.
- * NaN for closed surfaces. */
+/** \brief Mean over boundary samples of how far the outermost point lies inside the boundary, in the units of the
+ * model: of all points within `window` of the sample along the boundary, the one farthest outwards; the distance of the
+ * nearest point where there is none. NaN for closed surfaces. */
 double
 boundaryInset(const Surface& surface, const std::vector<Position>& points, double window);
 

@@ -44,7 +44,10 @@ public:
     return distance_ ? std::abs(distance_->nearest(p).signed_distance) : std::numeric_limits<double>::infinity();
   }
   const std::vector<Curve>&
-  curves() const { return curves_; }
+  curves() const
+  {
+    return curves_;
+  }
 
 private:
   std::vector<double> vertices_;
@@ -55,7 +58,9 @@ private:
 
 class MeshSurface : public Surface {
 public:
-  explicit MeshSurface(TriangleMesh mesh) : mesh_(std::move(mesh)), distance_(mesh_.vertices, mesh_.triangles)
+  explicit MeshSurface(TriangleMesh mesh)
+      : mesh_(std::move(mesh))
+      , distance_(mesh_.vertices, mesh_.triangles)
   {
     for (std::size_t v = 0; v < mesh_.vertexCount(); ++v)
       box_.add(vertex(v)[0], vertex(v)[1], vertex(v)[2]);
@@ -68,11 +73,20 @@ public:
   }
 
   BoundingBox
-  box() const override { return box_; }
+  box() const override
+  {
+    return box_;
+  }
   double
-  area() const override { return area_; }
+  area() const override
+  {
+    return area_;
+  }
   bool
-  closed() const override { return boundary_.curves().empty(); }
+  closed() const override
+  {
+    return boundary_.curves().empty();
+  }
   std::vector<SurfaceSample>
   sample(std::size_t count, std::uint64_t seed) const override
   {
@@ -90,7 +104,10 @@ public:
     return {found.signed_distance, normals_[found.triangle], found.triangle};
   }
   double
-  edgeDistance(const Position& p) const override { return edges_.distance(p); }
+  edgeDistance(const Position& p) const override
+  {
+    return edges_.distance(p);
+  }
   std::vector<Position>
   edgeSamples(double step) const override
   {
@@ -100,15 +117,27 @@ public:
     return points;
   }
   double
-  boundaryDistance(const Position& p) const override { return boundary_.distance(p); }
+  boundaryDistance(const Position& p) const override
+  {
+    return boundary_.distance(p);
+  }
   std::vector<BoundarySample>
-  boundarySamples(double step) const override { return sampleCurves(boundary_.curves(), step); }
+  boundarySamples(double step) const override
+  {
+    return sampleCurves(boundary_.curves(), step);
+  }
 
 private:
   Position
-  vertex(std::size_t v) const { return {mesh_.vertices[3 * v], mesh_.vertices[3 * v + 1], mesh_.vertices[3 * v + 2]}; }
+  vertex(std::size_t v) const
+  {
+    return {mesh_.vertices[3 * v], mesh_.vertices[3 * v + 1], mesh_.vertices[3 * v + 2]};
+  }
   Position
-  corner(std::size_t t, std::size_t k) const { return vertex(mesh_.triangles[3 * t + k % 3]); }
+  corner(std::size_t t, std::size_t k) const
+  {
+    return vertex(mesh_.triangles[3 * t + k % 3]);
+  }
   Position
   doubledArea(std::size_t t) const
   {
@@ -134,7 +163,8 @@ private:
       const Position along = subtract(corner(first.triangle, first.corner + 1), corner(first.triangle, first.corner));
       if (faces.size() == 1)
         boundary_.add(ends.first, ends.second, normalized(cross(along, n)));
-      else if (std::any_of(faces.begin(), faces.end(), [&](const Side& s) { return dot(n, normals_[s.triangle]) < kSharpCosine; }))
+      else if (std::any_of(faces.begin(), faces.end(),
+                           [&](const Side& s) { return dot(n, normals_[s.triangle]) < kSharpCosine; }))
         edges_.add(ends.first, ends.second, {0, 0, 0});
     }
     edges_.build();

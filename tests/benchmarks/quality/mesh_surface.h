@@ -11,8 +11,8 @@
 
 namespace pcl_gpf::quality {
 
-/** \brief A triangle mesh as truth; sharp edges are those with more than 30 degrees between their faces. Vertices at the same
- * position count as one. */
+/** \brief A triangle mesh as truth; sharp edges are those with more than 30 degrees between their faces. Vertices at
+ * the same position count as one. */
 std::shared_ptr<const Surface>
 meshSurface(const TriangleMesh& mesh);
 

@@ -96,7 +96,8 @@ describeMethods()
          "  clean                   the points before the noise: the floor of cov and ecov\n"
          "  ours                    the chain as denoise() runs it, no parameter given\n"
          "  paper                   Algorithm 1 as printed, GPFParameters::paper()\n"
-         "  mls, jet                pcl::MovingLeastSquares, CGAL's jet smoothing, and below CGAL's bilateral smoothing and WLOP,\n"
+         "  mls, jet                pcl::MovingLeastSquares, CGAL's jet smoothing, and below CGAL's bilateral "
+         "smoothing and WLOP,\n"
          "  bilateral, wlop         without tuning; with -best behind, the best of a grid of settings for each cloud\n"
          "                          (need a build with PCL_GPF_BENCHMARK_PEERS)\n"
          "  ours:CHANGE+CHANGE      the same with parameters changed (also paper:...), CHANGE one of\n" +

@@ -13,8 +13,9 @@ namespace pcl_gpf::quality {
 /** \brief What a method made of a cloud. */
 struct MethodResult {
   std::vector<Position> points;
-  std::vector<Position> normals;    ///< one per point, of any sign, or empty
-  std::vector<std::uint32_t> seeds; ///< row of the input that each point came from, or empty when the method does not tell
+  std::vector<Position> normals; ///< one per point, of any sign, or empty
+  std::vector<std::uint32_t>
+      seeds; ///< row of the input that each point came from, or empty when the method does not tell
   double seconds = 0, processor_seconds = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "models.h"
 #include "analytic_models.h"
 #include "mesh_surface.h"
-#include "models.h"
 #include "numbers.h"
 
 #include <pcl_gpf/core/sampling.h>

@@ -17,8 +17,9 @@ struct Model {
   double sheet_gap = 0;        ///< distance of two parallel sheets in model units; 0 = no such model
 };
 
-constexpr const char* kModelNames = "cube, block, sphere, relief, cylinder, torus, sheets[:gap in spacings, default 4], plane, cap, "
-                                    "cube-graded[:G, default 4], block-graded[:G], mesh:<name of a shared mesh>";
+constexpr const char* kModelNames =
+    "cube, block, sphere, relief, cylinder, torus, sheets[:gap in spacings, default 4], plane, cap, "
+    "cube-graded[:G, default 4], block-graded[:G], mesh:<name of a shared mesh>";
 
 /** \brief Makes a model. \param[in] count points that will be drawn; the gap of `sheets` is in their spacing.
  * \throws std::invalid_argument on unknown names, std::runtime_error when the file of a mesh is not there */

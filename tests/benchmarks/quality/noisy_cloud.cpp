@@ -19,8 +19,8 @@ centreOf(const BoundingBox& box)
   return {0.5 * (box.min[0] + box.max[0]), 0.5 * (box.min[1] + box.max[1]), 0.5 * (box.min[2] + box.max[2])};
 }
 
-/** Standard deviations along the ray are proportional to distance^2 / max(cosine, 1/4), a third of it across; scaled so that the mean
- * square over points and axes is level^2. */
+/** Standard deviations along the ray are proportional to distance^2 / max(cosine, 1/4), a third of it across; scaled so
+ * that the mean square over points and axes is level^2. */
 void
 addScannerNoise(NoisyCloud& cloud, double level, std::uint64_t seed)
 {
@@ -59,7 +59,8 @@ replaceByOutliers(NoisyCloud& cloud, double share, std::uint64_t seed)
   for (const std::uint32_t i : randomSubset(cloud.points.size(), count, random.next())) {
     cloud.is_outlier[i] = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double half = std::max(0.5 * kBoxFactor * (box.max[axis] - box.min[axis]), kLeastHalfWidth * box.diagonal());
+      const double half =
+          std::max(0.5 * kBoxFactor * (box.max[axis] - box.min[axis]), kLeastHalfWidth * box.diagonal());
       cloud.points[i][axis] = centre[axis] + (2 * random.uniform() - 1) * half;
     }
   }
@@ -103,7 +104,9 @@ makeNoisyCloud(const Model& model, std::size_t count, const NoiseSpec& spec)
     if (level > 0)
       addScannerNoise(cloud, level, SplitMix64(spec.seed + 1).next());
   } else {
-    (spec.kind == NoiseKind::Gaussian ? noise.gaussian : spec.kind == NoiseKind::Normal ? noise.along_normal : noise.uniform) = level;
+    (spec.kind == NoiseKind::Gaussian ? noise.gaussian
+     : spec.kind == NoiseKind::Normal ? noise.along_normal
+                                      : noise.uniform) = level;
     addNoise(noise, cloud.points, normals);
   }
   if (spec.outliers > 0)

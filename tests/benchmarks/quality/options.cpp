@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "options.h"
 #include "mesh_surface.h"
 #include "methods.h"
 #include "numbers.h"
-#include "options.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,8 @@ expandModels(const std::string& text)
   std::vector<std::string> models;
   for (const std::string& name : split(text))
     if (name == "analytic")
-      models.insert(models.end(), {"cube", "block", "sphere", "relief", "cylinder", "torus", "sheets", "plane", "cap", "cube-graded",
-                                   "block-graded"});
+      models.insert(models.end(), {"cube", "block", "sphere", "relief", "cylinder", "torus", "sheets", "plane", "cap",
+                                   "cube-graded", "block-graded"});
     else if (name == "meshes")
       for (const std::string& mesh : sharedMeshNames())
         models.push_back("mesh:" + mesh);
@@ -111,7 +111,7 @@ parseOptions(const std::vector<std::string>& arguments)
       throw std::invalid_argument(arguments[i] + " is unknown or lacks its value");
   }
   for (const std::string& method : o.methods)
-    if (o.reuse.empty()) // a build without the peers can draw what one with them measured
+    if (o.reuse.empty())  // a build without the peers can draw what one with them measured
       makeMethod(method); // refuses unknown names before anything runs
   return o;
 }
@@ -119,9 +119,12 @@ parseOptions(const std::vector<std::string>& arguments)
 std::string
 usage()
 {
-  return std::string("usage: quality [--models NAME,...] [--noises PERCENT,...] [--kinds KIND,...] [--sizes N,...] [--outliers PERCENT,...]\n"
-                     "               [--methods NAME,...] [--seed N] [--threads N] [--references N] [--csv FILE] [--svg-dir DIR]\n"
-                     "               [--reuse FILE: records of other filters in an earlier CSV file are taken instead of running them]\n"
+  return std::string("usage: quality [--models NAME,...] [--noises PERCENT,...] [--kinds KIND,...] [--sizes N,...] "
+                     "[--outliers PERCENT,...]\n"
+                     "               [--methods NAME,...] [--seed N] [--threads N] [--references N] [--csv FILE] "
+                     "[--svg-dir DIR]\n"
+                     "               [--reuse FILE: other filters are not run; their records come from this CSV file, "
+                     "where it has them]\n"
                      "       quality --targets [--seed N] [--threads N] [--csv FILE]\n"
                      "Makes clouds from models, filters them and prints the errors, in 1e-4 of the box diagonal.\n"
                      "models: ") +

@@ -21,7 +21,7 @@ struct Options {
   unsigned threads = 0;
   std::size_t references = 200000;
   std::string csv;     ///< file; empty = none
-  std::string reuse;   ///< earlier file whose records of other filters are taken instead of running them; empty = none
+  std::string reuse;   ///< file whose records of other filters are taken instead of running them; empty = none
   std::string svg_dir; ///< folder; empty = none
   bool targets = false;
   bool help = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "numbers.h"
 #include "parameter_changes.h"
+#include "numbers.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -50,15 +50,19 @@ struct Setting {
 
 const Setting kSettings[] = {
     {"h", "% of the diagonal", [](DenoiseParameters& p, double v, double unit) { p.gpf.support_radius = v * unit; }},
-    {"normal-radius", "% of the diagonal", [](DenoiseParameters& p, double v, double unit) { p.normals.radius = v * unit; }},
-    {"bilateral-radius", "% of the diagonal", [](DenoiseParameters& p, double v, double unit) { p.bilateral.radius = v * unit; }},
+    {"normal-radius", "% of the diagonal",
+     [](DenoiseParameters& p, double v, double unit) { p.normals.radius = v * unit; }},
+    {"bilateral-radius", "% of the diagonal",
+     [](DenoiseParameters& p, double v, double unit) { p.bilateral.radius = v * unit; }},
     {"bilateral-angle", "degrees", [](DenoiseParameters& p, double v, double) { p.bilateral.angle = v; }},
     {"bilateral-iterations", "rounds",
      [](DenoiseParameters& p, double v, double) { p.bilateral.iterations = static_cast<unsigned>(v); }},
-    {"iterations", "rounds", [](DenoiseParameters& p, double v, double) { p.gpf.maximum_iterations = static_cast<unsigned>(v); }},
+    {"iterations", "rounds",
+     [](DenoiseParameters& p, double v, double) { p.gpf.maximum_iterations = static_cast<unsigned>(v); }},
     {"normal-angle", "degrees", [](DenoiseParameters& p, double v, double) { p.gpf.normal_angle = v; }},
     {"weight-floor", "share", [](DenoiseParameters& p, double v, double) { p.gpf.normal_weight_floor = v; }},
-    {"variance", "in the frame of diagonal 1", [](DenoiseParameters& p, double v, double) { p.gpf.initial_variance = v; }},
+    {"variance", "in the frame of diagonal 1",
+     [](DenoiseParameters& p, double v, double) { p.gpf.initial_variance = v; }},
     {"repulsion-weight", "mu-hat", [](DenoiseParameters& p, double v, double) { p.gpf.repulsion_weight = v; }},
     {"outlier-weight", "omega", [](DenoiseParameters& p, double v, double) { p.gpf.outlier_weight = v; }},
     {"sample-ratio", "share of the points", [](DenoiseParameters& p, double v, double) { p.gpf.sample_ratio = v; }},

@@ -19,11 +19,19 @@ between(SplitMix64& random, double low, double high)
 
 } // namespace
 
-RectanglePatch::RectanglePatch(std::size_t axis, double level, Planar low, Planar high, double sign, std::vector<Circle> circles,
-                               std::vector<Hole> holes)
-: axis_(axis), u_(axis == 0 ? 1 : 0), v_(axis == 2 ? 1 : 2), level_(level), sign_(sign), low_(low), high_(high),
-  circles_(std::move(circles)), holes_(std::move(holes))
-{}
+RectanglePatch::RectanglePatch(std::size_t axis, double level, Planar low, Planar high, double sign,
+                               std::vector<Circle> circles, std::vector<Hole> holes)
+    : axis_(axis)
+    , u_(axis == 0 ? 1 : 0)
+    , v_(axis == 2 ? 1 : 2)
+    , level_(level)
+    , sign_(sign)
+    , low_(low)
+    , high_(high)
+    , circles_(std::move(circles))
+    , holes_(std::move(holes))
+{
+}
 
 double
 RectanglePatch::area() const
@@ -43,7 +51,8 @@ RectanglePatch::holds(const Planar& q) const
   const auto in_hole = [&](const Hole& h) {
     return q[0] > h.low[0] && q[0] < h.high[0] && q[1] > h.low[1] && q[1] < h.high[1];
   };
-  return std::none_of(circles_.begin(), circles_.end(), in_circle) && std::none_of(holes_.begin(), holes_.end(), in_hole);
+  return std::none_of(circles_.begin(), circles_.end(), in_circle) &&
+         std::none_of(holes_.begin(), holes_.end(), in_hole);
 }
 
 void

@@ -8,8 +8,8 @@
 #include <vector>
 
 /** \file
- * \brief Pieces of surfaces with exact distances. The rules (what is cut out of what) are those of the generator that the peers of
- * docs/quality.md were measured with, so that figures compare.
+ * \brief Pieces of surfaces with exact distances. The rules (what is cut out of what) are those of the generator that
+ * the peers of docs/quality.md were measured with, so that figures compare.
  */
 namespace pcl_gpf::quality {
 
@@ -33,7 +33,8 @@ public:
   normalAt(const Position& p) const = 0;
 };
 
-/** \brief Rectangle at `axis` = `level` over [low, high] of the two other axes, without circles and rectangles cut out of it. */
+/** \brief Rectangle at `axis` = `level` over [low, high] of the two other axes, without circles and rectangles cut out
+ * of it. */
 class RectanglePatch : public Patch {
 public:
   struct Circle {
@@ -70,8 +71,13 @@ private:
 class CylinderPatch : public Patch {
 public:
   CylinderPatch(Planar centre, double radius, double low, double high, double sign)
-  : centre_(centre), radius_(radius), low_(low), high_(high), sign_(sign)
-  {}
+      : centre_(centre)
+      , radius_(radius)
+      , low_(low)
+      , high_(high)
+      , sign_(sign)
+  {
+  }
   double
   area() const override;
   void
@@ -90,8 +96,12 @@ private:
 class DiskPatch : public Patch {
 public:
   DiskPatch(Planar centre, double level, double radius, double sign)
-  : centre_(centre), level_(level), radius_(radius), sign_(sign)
-  {}
+      : centre_(centre)
+      , level_(level)
+      , radius_(radius)
+      , sign_(sign)
+  {
+  }
   double
   area() const override;
   void
@@ -99,7 +109,10 @@ public:
   double
   distance(const Position& p) const override;
   Position
-  normalAt(const Position&) const override { return {0, 0, sign_}; }
+  normalAt(const Position&) const override
+  {
+    return {0, 0, sign_};
+  }
 
 private:
   Planar centre_;
@@ -109,7 +122,12 @@ private:
 /** \brief Upper part of a sphere of the given height; height = 2 radius: all of it, height <= radius: a cap. */
 class CapPatch : public Patch {
 public:
-  CapPatch(const Position& centre, double radius, double height) : centre_(centre), radius_(radius), height_(height) {}
+  CapPatch(const Position& centre, double radius, double height)
+      : centre_(centre)
+      , radius_(radius)
+      , height_(height)
+  {
+  }
   double
   area() const override;
   void
@@ -127,7 +145,11 @@ private:
 /** \brief Torus about z. */
 class TorusPatch : public Patch {
 public:
-  TorusPatch(double ring_radius, double tube_radius) : ring_(ring_radius), tube_(tube_radius) {}
+  TorusPatch(double ring_radius, double tube_radius)
+      : ring_(ring_radius)
+      , tube_(tube_radius)
+  {
+  }
   double
   area() const override;
   void

@@ -16,7 +16,8 @@ namespace {
 
 using namespace benchmark_peers;
 
-/** Settings were found with this many points; numbers of neighbours grow with the cloud so that they cover the same area. */
+/** Settings were found with this many points; numbers of neighbours grow with the cloud so that they cover the same
+ * area. */
 constexpr double kTunedSize = 33490;
 
 PeerCloud
@@ -97,7 +98,8 @@ mlsDefault()
 Variant
 jet(unsigned neighbors, unsigned passes, bool scale)
 {
-  return {"k " + std::to_string(neighbors) + " passes " + std::to_string(passes), [=](const NoisyCloud& cloud, unsigned threads) {
+  return {"k " + std::to_string(neighbors) + " passes " + std::to_string(passes),
+          [=](const NoisyCloud& cloud, unsigned threads) {
             PeerCloud packed = pack(cloud);
             const Stopwatch watch;
             cgalJetSmooth(packed, scale ? scaled(neighbors, cloud) : neighbors, passes, resolved(threads));
@@ -146,8 +148,8 @@ void
 addFilteredNormals(PeerCloud& packed, const PeerNormals& wanted, const NoisyCloud& cloud, unsigned threads)
 {
   estimateNormalsPcl(packed, scaled(wanted.neighbors, cloud), resolved(threads));
-  const std::vector<float> x(packed.normal_x.begin(), packed.normal_x.end()), y(packed.normal_y.begin(), packed.normal_y.end()),
-      z(packed.normal_z.begin(), packed.normal_z.end());
+  const std::vector<float> x(packed.normal_x.begin(), packed.normal_x.end()),
+      y(packed.normal_y.begin(), packed.normal_y.end()), z(packed.normal_z.begin(), packed.normal_z.end());
   DenoiseParameters parameters;
   parameters.bilateral.radius = wanted.bilateral_radius * cloud.model.surface->diagonal();
   parameters.bilateral.angle = wanted.angle;
@@ -163,8 +165,9 @@ addFilteredNormals(PeerCloud& packed, const PeerNormals& wanted, const NoisyClou
 Variant
 bilateral(PeerNormals normals, CgalBilateralParameters parameters)
 {
-  return {"k " + std::to_string(parameters.neighbors) + " angle " + std::to_string(static_cast<int>(parameters.sharpness_angle)) +
-              " passes " + std::to_string(parameters.passes),
+  return {"k " + std::to_string(parameters.neighbors) + " angle " +
+              std::to_string(static_cast<int>(parameters.sharpness_angle)) + " passes " +
+              std::to_string(parameters.passes),
           [=](const NoisyCloud& cloud, unsigned threads) {
             PeerCloud packed = pack(cloud);
             CgalBilateralParameters used = parameters;
@@ -206,8 +209,9 @@ peerVariants(const std::string& name)
   if (name == "bilateral")
     return {bilateralDefault()};
   if (name == "bilateral-best")
-    return {bilateral({20, 0.02, 15}, {30, 25, 2}), bilateral({30, 0.03, 15}, {60, 25, 2}), bilateral({60, 0.05, 20}, {100, 25, 3}),
-            bilateral({120, 0.07, 25}, {200, 25, 3}), bilateral({300, 0.12, 35}, {300, 40, 3})};
+    return {bilateral({20, 0.02, 15}, {30, 25, 2}), bilateral({30, 0.03, 15}, {60, 25, 2}),
+            bilateral({60, 0.05, 20}, {100, 25, 3}), bilateral({120, 0.07, 25}, {200, 25, 3}),
+            bilateral({300, 0.12, 35}, {300, 40, 3})};
   if (name == "wlop")
     return {wlop(0, 35, 5)};
   if (name == "wlop-best")

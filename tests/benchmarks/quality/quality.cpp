@@ -21,7 +21,8 @@ using namespace pcl_gpf::quality;
 /** Lines of CSV as they come; nothing when no file is wanted. */
 class CsvFile {
 public:
-  explicit CsvFile(const std::string& path) : path_(path)
+  explicit CsvFile(const std::string& path)
+      : path_(path)
   {
     if (!path.empty())
       file_.open(path);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "numbers.h"
 #include "report.h"
+#include "numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,8 +79,8 @@ tableHeading()
 std::string
 tableLine(const Record& r)
 {
-  std::string line = print("%-14s %7zu %-8s %5g %4g %-24s", r.model.c_str(), r.size, nameOf(r.noise.kind), r.noise.percent,
-                           100 * r.noise.outliers, r.method.c_str());
+  std::string line = print("%-14s %7zu %-8s %5g %4g %-24s", r.model.c_str(), r.size, nameOf(r.noise.kind),
+                           r.noise.percent, 100 * r.noise.outliers, r.method.c_str());
   for (const FigureColumn& column : kFigureColumns) {
     const double value = r.figures.*column.value;
     line += " " + right(std::isnan(value) ? "-" : print(column.format, value), widthOf(column));
@@ -100,8 +100,9 @@ csvHeading()
 std::string
 csvLine(const Record& r)
 {
-  std::string line = r.model + print(",%zu,%s,%g,%g,%llu,", r.size, nameOf(r.noise.kind), r.noise.percent, 100 * r.noise.outliers,
-                                     static_cast<unsigned long long>(r.noise.seed)) +
+  std::string line = r.model +
+                     print(",%zu,%s,%g,%g,%llu,", r.size, nameOf(r.noise.kind), r.noise.percent, 100 * r.noise.outliers,
+                           static_cast<unsigned long long>(r.noise.seed)) +
                      r.method + "," + r.setting;
   for (const FigureColumn& column : kFigureColumns) {
     const double value = r.figures.*column.value;

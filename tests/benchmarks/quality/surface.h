@@ -55,7 +55,10 @@ public:
 
   /** \brief Length of the bounding box's diagonal; errors are given in 1e-4 of it. */
   double
-  diagonal() const { return box().diagonal(); }
+  diagonal() const
+  {
+    return box().diagonal();
+  }
 };
 
 } // namespace pcl_gpf::quality

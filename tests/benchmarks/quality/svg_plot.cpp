@@ -11,9 +11,11 @@ namespace pcl_gpf::quality {
 
 namespace {
 
-constexpr double kPlotWidth = 300, kPlotHeight = 250, kLeft = 62, kTop = 64, kGap = 34, kBelow = 52, kLegendRow = 20, kLegendColumn = 170;
+constexpr double kPlotWidth = 300, kPlotHeight = 250, kLeft = 62, kTop = 64, kGap = 34, kBelow = 52, kLegendRow = 20,
+                 kLegendColumn = 170;
 
-/** Colours that people with any kind of colour vision tell apart (Okabe and Ito); dashes and markers tell them apart in grey too. */
+/** Colours that people with any kind of colour vision tell apart (Okabe and Ito); dashes and markers tell them apart in
+ * grey too. */
 struct Style {
   const char* colour;
   const char* dash;
@@ -28,7 +30,8 @@ const Style&
 styleOf(std::size_t number)
 {
   const std::size_t count = std::size(kStyles);
-  return kStyles[number < count ? number : 3 + (number - 3) % (count - 3)]; // the first three are for input, floor and our own
+  return kStyles[number < count ? number
+                                : 3 + (number - 3) % (count - 3)]; // the first three are for input, floor and our own
 }
 
 template <typename... Values>
@@ -77,7 +80,10 @@ struct Axis {
   double low = 1, high = 10, a = 0, b = 1;
 
   double
-  at(double value) const { return a + (b - a) * std::log(value / low) / std::log(high / low); }
+  at(double value) const
+  {
+    return a + (b - a) * std::log(value / low) / std::log(high / low);
+  }
 };
 
 /** Covers the values with a margin. */
@@ -94,7 +100,8 @@ std::vector<double>
 ticks(const Axis& axis)
 {
   std::vector<double> found;
-  for (const std::vector<double>& digits : {std::vector<double>{1, 2, 5}, std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}}) {
+  for (const std::vector<double>& digits :
+       {std::vector<double>{1, 2, 5}, std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}}) {
     found.clear();
     for (double decade = std::pow(10, std::floor(std::log10(axis.low))); decade <= axis.high; decade *= 10)
       for (const double digit : digits)
@@ -110,8 +117,9 @@ ticks(const Axis& axis)
 std::string
 drawAxes(const Panel& panel, const Axis& x, const Axis& y, const std::set<double>& xs)
 {
-  std::string svg = print("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444\"/>\n", x.a, y.b,
-                          x.b - x.a, y.a - y.b);
+  std::string svg =
+      print("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444\"/>\n", x.a, y.b,
+            x.b - x.a, y.a - y.b);
   for (const double v : ticks(y)) {
     svg += print("<path d=\"M%.1f %.1fh%.1f\" stroke=\"#ddd\"/>\n", x.a, y.at(v), x.b - x.a);
     svg += text(x.a - 6, y.at(v) + 4, print("%g", v), "end");
@@ -127,7 +135,8 @@ drawAxes(const Panel& panel, const Axis& x, const Axis& y, const std::set<double
   }
   const double middle = 0.5 * (x.a + x.b), height = 0.5 * (y.a + y.b);
   svg += text(middle, y.a + 34, panel.x_label) + text(middle, y.b - 9, panel.title, "middle", "font-weight=\"bold\"");
-  return svg + text(x.a - 44, height, panel.y_label, "middle", print("transform=\"rotate(-90 %.1f %.1f)\"", x.a - 44, height).c_str());
+  return svg + text(x.a - 44, height, panel.y_label, "middle",
+                    print("transform=\"rotate(-90 %.1f %.1f)\"", x.a - 44, height).c_str());
 }
 
 std::string
@@ -139,8 +148,10 @@ drawLine(const Panel::Line& line, const Axis& x, const Axis& y)
     path += print("%s%.1f %.1f", path.empty() ? "M" : "L", x.at(px), y.at(py));
     markers += marker(style, x.at(px), y.at(py));
   }
-  return "<path d=\"" + path + print("\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", style.colour,
-                                     style.width, style.dash) + markers;
+  return "<path d=\"" + path +
+         print("\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", style.colour,
+               style.width, style.dash) +
+         markers;
 }
 
 std::string
@@ -157,7 +168,9 @@ drawPanel(const Panel& panel, double left)
   std::vector<const Panel::Line*> order;
   for (const Panel::Line& line : panel.lines)
     order.push_back(&line);
-  const auto thinner = [](const Panel::Line* a, const Panel::Line* b) { return styleOf(a->style).width < styleOf(b->style).width; };
+  const auto thinner = [](const Panel::Line* a, const Panel::Line* b) {
+    return styleOf(a->style).width < styleOf(b->style).width;
+  };
   std::stable_sort(order.begin(), order.end(), thinner); // the thickest on top
   for (const Panel::Line* line : order)
     svg += drawLine(*line, x, y);
@@ -170,10 +183,11 @@ drawLegend(const std::map<std::size_t, std::string>& labels, double top, std::si
   std::string svg;
   std::size_t i = 0;
   for (const auto& [number, label] : labels) {
-    const double x = kLeft + kLegendColumn * static_cast<double>(i % columns), y = top + kLegendRow * static_cast<double>(i / columns);
+    const double x = kLeft + kLegendColumn * static_cast<double>(i % columns),
+                 y = top + kLegendRow * static_cast<double>(i / columns);
     const Style& style = styleOf(number);
-    svg += print("<path d=\"M%.1f %.1fh30\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", x, y, style.colour,
-                 style.width, style.dash);
+    svg += print("<path d=\"M%.1f %.1fh30\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", x, y,
+                 style.colour, style.width, style.dash);
     svg += marker(style, x + 15, y) + text(x + 37, y + 4, label, "start");
     ++i;
   }
@@ -192,10 +206,13 @@ drawSvg(const std::string& title, const std::vector<Panel>& panels)
   const auto count = static_cast<double>(panels.size());
   const double width = kLeft + count * kPlotWidth + (count - 1) * (kGap + kLeft) + 16;
   const auto columns = std::max<std::size_t>(1, static_cast<std::size_t>((width - kLeft) / kLegendColumn));
-  const double legend_top = kTop + kPlotHeight + kBelow, rows = std::ceil(static_cast<double>(labels.size()) / static_cast<double>(columns));
+  const double legend_top = kTop + kPlotHeight + kBelow,
+               rows = std::ceil(static_cast<double>(labels.size()) / static_cast<double>(columns));
   const double height = legend_top + kLegendRow * rows;
-  std::string svg = print("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-                          "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#222\">\n", width, height, width, height);
+  std::string svg =
+      print("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
+            "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#222\">\n",
+            width, height, width, height);
   svg += print("<rect width=\"%.0f\" height=\"%.0f\" fill=\"#fff\"/>\n", width, height);
   svg += text(0.5 * width, 24, title, "middle", "font-size=\"15\"");
   for (std::size_t i = 0; i < panels.size(); ++i)

@@ -19,7 +19,8 @@ struct Panel {
   std::vector<Line> lines;
 };
 
-/** \brief Panels side by side above one legend, as a complete SVG document. The ticks along x are the x of the points. */
+/** \brief Panels side by side above one legend, as a complete SVG document. The ticks along x are the x of the points.
+ */
 std::string
 drawSvg(const std::string& title, const std::vector<Panel>& panels);
 

@@ -28,7 +28,10 @@ struct TargetResult {
   double value = 0;
 
   bool
-  holds() const { return value <= target.must; }
+  holds() const
+  {
+    return value <= target.must;
+  }
 };
 
 /** \brief Filters the clouds of the targets with the first of the methods that is not "input" and compares.

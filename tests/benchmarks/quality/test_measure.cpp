@@ -93,7 +93,8 @@ TEST(Measure, EqualsTheDefinitions)
   EXPECT_NEAR(f.rms, std::sqrt(squares), 1e-8);
   EXPECT_NEAR(f.mean_square, 1e-8 * squares, 1e-15);
   EXPECT_NEAR(f.max, largest, 1e-8);
-  EXPECT_NEAR(f.p95, distances[below] + (rank - static_cast<double>(below)) * (distances[below + 1] - distances[below]), 1e-8);
+  EXPECT_NEAR(f.p95, distances[below] + (rank - static_cast<double>(below)) * (distances[below + 1] - distances[below]),
+              1e-8);
   EXPECT_NEAR(f.edge_mean, edge_sum / edge_count, 1e-8);
   EXPECT_NEAR(f.edge_share, edge_count / kCount, 1e-12);
   EXPECT_EQ(f.mean, f.mean_all);
@@ -108,7 +109,6 @@ TEST(Measure, EqualsTheDefinitions)
   for (const SurfaceSample& s : references)
     coverage += nearestDistance(cloud.points, s.point) / static_cast<double>(references.size());
   EXPECT_NEAR(f.coverage, coverage * kCubeUnit, 1e-8);
-
 }
 
 /** Beyond an edge two faces are equally near, and the normal of either counts: the figure lies between the extremes. */
@@ -127,7 +127,8 @@ TEST(Measure, NormalErrorsAreThoseOfTheNearestFace)
       for (double& c : on_face)
         c = std::min(std::max(c, 0.0), 1.0);
       on_face[face / 2] = static_cast<double>(face % 2);
-      const double d = length(subtract(on_face, p)), turn = std::acos(std::min(std::abs(n[face / 2]), 1.0)) * 180 / std::acos(-1);
+      const double d = length(subtract(on_face, p)),
+                   turn = std::acos(std::min(std::abs(n[face / 2]), 1.0)) * 180 / std::acos(-1);
       constexpr double kRounding = 1e-12;
       if (d > nearest + kRounding)
         continue;
@@ -150,7 +151,8 @@ TEST(Measure, NormalsOfAnySignAndLengthCountNearEdgesToo)
   MethodResult result = keep(cloud);
   for (const SurfaceSample& s : cloud.clean) {
     const bool edge = cubeEdgeDistance(s.point) < 0.02 * std::sqrt(3);
-    result.normals.push_back(edge ? Position{-3, -3, -3} : Position{-2 * s.normal[0], -2 * s.normal[1], -2 * s.normal[2]});
+    result.normals.push_back(edge ? Position{-3, -3, -3}
+                                  : Position{-2 * s.normal[0], -2 * s.normal[1], -2 * s.normal[2]});
   }
   const Figures f = measure(cloud, result, quick());
   const double diagonal_angle = std::acos(1 / std::sqrt(3)) * 180 / std::acos(-1);
@@ -181,7 +183,8 @@ TEST(Measure, InflationIsPositive)
   EXPECT_NEAR(f.mean, f.signed_mean, 1e-8);
   EXPECT_NEAR(f.movement, 0.01 / cloud.spacing, 1e-10);
   EXPECT_NEAR(f.movement_away, f.movement, 1e-12);
-  EXPECT_TRUE(std::isnan(f.edge_mean) && std::isnan(f.edge_coverage) && std::isnan(f.recession) && std::isnan(f.wrong_sheet));
+  EXPECT_TRUE(std::isnan(f.edge_mean) && std::isnan(f.edge_coverage) && std::isnan(f.recession) &&
+              std::isnan(f.wrong_sheet));
 }
 
 TEST(Measure, FarOutliersAreLeftOutOfTheMeanOnly)

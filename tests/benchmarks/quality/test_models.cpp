@@ -23,7 +23,8 @@ cubeMesh(std::size_t triangles)
   for (int corner = 0; corner < 8; ++corner)
     for (const int bit : {1, 2, 4})
       mesh.vertices.push_back((corner & bit) != 0 ? 1 : 0);
-  mesh.triangles = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  mesh.triangles = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
   mesh.triangles.resize(3 * triangles);
   return mesh;
 }
@@ -80,7 +81,8 @@ TEST_P(EveryModel, DistancesEqualThoseToDenseSamples)
   for (const SurfaceSample& s : surface.sample(kDense, 5))
     dense.push_back(s.point);
   const PointDistance brute_force(dense);
-  const double gap = 5 * std::sqrt(surface.area() / kDense); // a circle of it holds 80 samples, its quarter at a corner 20
+  const double gap =
+      5 * std::sqrt(surface.area() / kDense); // a circle of it holds 80 samples, its quarter at a corner 20
   for (const Position& p : queries(2000)) {
     const double exact = std::abs(surface.nearest(p).signed_distance), sampled = brute_force.nearest(p).distance;
     EXPECT_LE(exact, sampled + 1e-12);
@@ -88,7 +90,8 @@ TEST_P(EveryModel, DistancesEqualThoseToDenseSamples)
   }
 }
 
-/** A distance changes by no more than the way gone, along its gradient by exactly that, and only a zero changes its sign. */
+/** A distance changes by no more than the way gone, along its gradient by exactly that, and only a zero changes its
+ * sign. */
 TEST_P(EveryModel, SignedDistancesChangeAsFastAsTheQueryMoves)
 {
   SplitMix64 random(9);
@@ -158,15 +161,17 @@ TEST_P(EveryModel, BoundaryDirectionsLeadOff)
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, EveryModel,
-                         ::testing::Values("cube", "block", "sphere", "relief", "cylinder", "torus", "sheets", "plane", "cap",
-                                           "cube-graded", "block-graded:-3", "mesh of a cube", "mesh with an opening"));
+                         ::testing::Values("cube", "block", "sphere", "relief", "cylinder", "torus", "sheets", "plane",
+                                           "cap", "cube-graded", "block-graded:-3", "mesh of a cube",
+                                           "mesh with an opening"));
 
 TEST(Models, AreasAndDiagonals)
 {
   EXPECT_DOUBLE_EQ(makeModel("cube", 1).surface->area(), 6);
   EXPECT_DOUBLE_EQ(makeModel("cube", 1).surface->diagonal(), std::sqrt(3));
   const double hole = std::acos(-1) * 0.28 * (2 * 0.6 - 2 * 0.28);
-  EXPECT_NEAR(makeModel("block", 1).surface->area(), 2 * 0.6 * 2 + 2 * 0.6 * 0.8 + 6.8 + hole, 1e-12); // profile twice, its rim, hole
+  EXPECT_NEAR(makeModel("block", 1).surface->area(), 2 * 0.6 * 2 + 2 * 0.6 * 0.8 + 6.8 + hole,
+              1e-12); // profile twice, its rim, hole
   EXPECT_NEAR(makeModel("sphere", 1).surface->area(), 4 * std::acos(-1), 1e-12);
 }
 

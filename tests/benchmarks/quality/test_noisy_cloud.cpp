@@ -67,7 +67,8 @@ TEST(NoisyCloud, UniformStaysWithinItsLevel)
   EXPECT_NEAR(d.all, kOnePercent / std::sqrt(3), 0.01 * kOnePercent);
 }
 
-/** Seen from the eye, steps along the ray are three times as large as across, and far points move more than near ones. */
+/** Seen from the eye, steps along the ray are three times as large as across, and far points move more than near ones.
+ */
 TEST(NoisyCloud, ScannerNoiseFollowsTheRays)
 {
   const NoisyCloud cloud = cubeWith(NoiseKind::Scanner, 1);

@@ -76,8 +76,9 @@ TEST(QualityReport, TableLinesAlignWithTheirHeading)
 
 TEST(QualityCharts, OneFileAModelWithALineAMethod)
 {
-  const std::vector<Chart> charts = drawCharts({record("cube", 1, "input", 78), record("cube", 0.5, "input", 39), record("cube", 1, "ours", 8),
-                                                record("cube", 0.5, "ours", 6), record("sphere", 1, "a<b", 5), record("torus", 0, "ours", 1)});
+  const std::vector<Chart> charts =
+      drawCharts({record("cube", 1, "input", 78), record("cube", 0.5, "input", 39), record("cube", 1, "ours", 8),
+                  record("cube", 0.5, "ours", 6), record("sphere", 1, "a<b", 5), record("torus", 0, "ours", 1)});
   ASSERT_EQ(charts.size(), 2u) << "a model without noise has no curve";
   EXPECT_EQ(charts[0].file_name, "quality_cube.svg");
   EXPECT_EQ(charts[1].file_name, "quality_sphere.svg");
@@ -103,15 +104,18 @@ TEST(QualityTargets, CoverEveryModelOnce)
   const std::vector<Target> targets = allTargets();
   for (const Target& t : targets) {
     EXPECT_NO_THROW(makeModel(t.model, 1000)) << t.model;
-    EXPECT_EQ(std::count_if(targets.begin(), targets.end(),
-                            [&](const Target& o) { return o.model == t.model && o.percent == t.percent && o.name == t.name; }), 1);
+    EXPECT_EQ(std::count_if(
+                  targets.begin(), targets.end(),
+                  [&](const Target& o) { return o.model == t.model && o.percent == t.percent && o.name == t.name; }),
+              1);
   }
 }
 
 TEST(QualityOptions, ListsAndGroups)
 {
-  const Options o = parseOptions({"--models", "cube,analytic", "--noises", "0.1,3", "--kinds", "scanner,uniform", "--sizes", "10,20",
-                                  "--outliers", "0,5", "--methods", "paper,ours:no-symmetric+iterations=3", "--seed", "9"});
+  const Options o =
+      parseOptions({"--models", "cube,analytic", "--noises", "0.1,3", "--kinds", "scanner,uniform", "--sizes", "10,20",
+                    "--outliers", "0,5", "--methods", "paper,ours:no-symmetric+iterations=3", "--seed", "9"});
   EXPECT_EQ(o.models.size(), 12u);
   EXPECT_EQ(o.noises, (std::vector<double>{0.1, 3}));
   EXPECT_EQ(o.kinds, (std::vector<NoiseKind>{NoiseKind::Scanner, NoiseKind::Uniform}));
@@ -121,9 +125,10 @@ TEST(QualityOptions, ListsAndGroups)
 
 TEST(QualityOptions, RefuseWhatTheyDoNotKnow)
 {
-  const std::vector<std::vector<std::string>> wrong = {{"--model", "cube"}, {"--noises", "much"}, {"--noises", "-1"}, {"--kinds", "pink"},
-                                                       {"--sizes", "1.5"}, {"--methods", "theirs"}, {"--methods", "ours:faster"},
-                                                       {"--methods", "ours:iterations=few"}, {"--seed"}, {"--outliers", "nan"}};
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--model", "cube"}, {"--noises", "much"},    {"--noises", "-1"},           {"--kinds", "pink"},
+      {"--sizes", "1.5"},  {"--methods", "theirs"}, {"--methods", "ours:faster"}, {"--methods", "ours:iterations=few"},
+      {"--seed"},          {"--outliers", "nan"}};
   for (const auto& arguments : wrong)
     EXPECT_THROW(parseOptions(arguments), std::invalid_argument) << arguments.front() << " " << arguments.back();
 }
