@@ -117,11 +117,10 @@ drawSamples(const GPFParameters& gpf, const Packed& packed)
 }
 
 void
-unpack(const DenoiseInput& input, Packed packed, GPFState state, const std::vector<std::uint32_t>& samples, std::size_t threads,
+unpack(const DenoiseInput& input, Packed packed, FilteredCloud cloud, const std::vector<std::uint32_t>& samples, std::size_t threads,
        DenoiseResult& result)
 {
-  const std::size_t count = state.size();
-  SoaBuffer vectors(count);
+  const std::size_t count = cloud.displacements.size();
   const auto forEach = [&](const auto& body) {
     parallelBlocks(count, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
@@ -136,13 +135,13 @@ unpack(const DenoiseInput& input, Packed packed, GPFState state, const std::vect
     to.resize(count);
     forEach([&](std::size_t k) { to[placeOf(k)] = values[k]; });
   };
-  take(state.isolated(), result.isolated);
-  state.normals(vectors.view());
-  take(vectors.x, result.normal_x);
-  take(vectors.y, result.normal_y);
-  take(vectors.z, result.normal_z);
-  state.displacements(vectors.view());
-  { const GPFState freed = std::move(state); }
+  take(cloud.isolated, result.isolated);
+  if (!result.fine.empty())
+    take(std::vector<std::uint8_t>(result.fine), result.fine);
+  take(cloud.normals.x, result.normal_x);
+  take(cloud.normals.y, result.normal_y);
+  take(cloud.normals.z, result.normal_z);
+  cloud.normals = SoaBuffer();
 
   const auto move = [&](const double* start, AlignedArray<float>& moves, std::vector<double>& to) {
     to.resize(count);
@@ -154,9 +153,9 @@ unpack(const DenoiseInput& input, Packed packed, GPFState state, const std::vect
     });
     moves = AlignedArray<float>();
   };
-  move(input.x, vectors.x, result.x);
-  move(input.y, vectors.y, result.y);
-  move(input.z, vectors.z, result.z);
+  move(input.x, cloud.displacements.x, result.x);
+  move(input.y, cloud.displacements.y, result.y);
+  move(input.z, cloud.displacements.z, result.z);
 }
 
 } // namespace pcl_gpf

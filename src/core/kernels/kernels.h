@@ -104,6 +104,20 @@ struct Moments {
   MutableVectors<float> scatter_mixed;    ///< yz xz xy
 };
 
+/** Sums of two fields over the data in reach; a datum weighs as much as its normal agrees with the query's, in shape
+ * exp(-((1 - |cos|) normal_falloff)^2). */
+struct FieldSums {
+  Vectors<float> queries, query_normals, data, data_normals;
+  Radius<float> radius;
+  float normal_falloff = 0;            ///< 1 / (1 - cos angle); 0: all weights are 1 and normals are not read
+  const float* first_field = nullptr;
+  const float* second_field = nullptr;
+  float* count = nullptr;              ///< number of data in reach
+  float* weight_sum = nullptr;
+  float* first_sum = nullptr;          ///< sum of weight * first_field
+  float* second_sum = nullptr;
+};
+
 /** Candidates of the blocks, as in Neighborhoods. */
 struct Candidates {
   std::size_t query_count = 0;
@@ -134,6 +148,7 @@ struct KernelSet {
   void (*repulsion_double)(const Candidates&, const Repulsion<double>&, std::size_t begin, std::size_t end);
   void (*bilateral_normals)(const Candidates&, const BilateralNormals&, std::size_t begin, std::size_t end);
   void (*moments)(const Candidates&, const Moments&, std::size_t begin, std::size_t end);
+  void (*field_sums)(const Candidates&, const FieldSums&, std::size_t begin, std::size_t end);
   void (*near_children)(const NearChildren&);
 };
 

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "bilateral_normals-inl.h"
+#include "field_sums-inl.h"
 #include "gaussian_sums-inl.h"
 #include "near_children-inl.h"
 #include "projection-inl.h"
@@ -114,8 +115,22 @@ moments(const Candidates& candidates, const Moments& a, std::size_t begin, std::
     streamPairs<PlainMomentSum, float>(candidates, a, begin, end);
 }
 
+template <class D>
+using AgreeingFieldSum = FieldSum<D, true>;
+template <class D>
+using PlainFieldSum = FieldSum<D, false>;
+
+static void
+fieldSums(const Candidates& candidates, const FieldSums& a, std::size_t begin, std::size_t end)
+{
+  if (a.normal_falloff > 0.0f)
+    streamPairs<AgreeingFieldSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<PlainFieldSum, float>(candidates, a, begin, end);
+}
+
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
-                              repulsion<float>,    repulsion<double>,    bilateralNormals,  moments, nearChildren};
+                              repulsion<float>,    repulsion<double>,    bilateralNormals,  moments, fieldSums, nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

@@ -289,6 +289,41 @@ struct MomentsCase : KernelCase<float> {
   }
 };
 
+struct FieldCase : KernelCase<float> {
+  bool normals = false;
+
+  std::string name() const { return std::string("field sums") + (normals ? " normals" : ""); }
+  std::size_t channels() const { return 4; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    kernels::FieldSums a;
+    a.queries = in.queries.vectors();
+    a.query_normals = in.query_normals.vectors();
+    a.data = in.data.vectors();
+    a.data_normals = in.data_normals.vectors();
+    a.radius = radius(in);
+    a.normal_falloff = normals ? kFalloff : 0.0f;
+    a.first_field = in.weight.data();
+    a.second_field = in.density.data();
+    a.count = out.channel(0);
+    a.weight_sum = out.channel(1);
+    a.first_sum = out.channel(2);
+    a.second_sum = out.channel(3);
+    set.field_sums(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const double weight = normals ? bell((1 - std::abs(p.cosine())) * kFalloff) : 1.0;
+    const double scale = normals ? 8.0 : 1.0; // the fourth power and the cancellation in 1 - |cos| multiply rounding
+    return {{1, 1}, {weight, scale}, {weight * p.weight, scale * std::abs(p.weight)}, {weight * p.density, scale * std::abs(p.density)}};
+  }
+
+private:
+  static constexpr float kFalloff = 7.5f;
+};
+
 /** \brief Calls visit(case) for every kernel in every combination of its switches. */
 template <typename Real, typename Visit>
 void
@@ -309,6 +344,7 @@ forEveryCase(const Visit& visit)
         for (const bool sign_invariant : {false, true})
           visit(BilateralCase{{per_query}, sign_invariant, weighted});
         visit(MomentsCase{{per_query}, weighted});
+        visit(FieldCase{{per_query}, weighted});
       }
     }
   }
