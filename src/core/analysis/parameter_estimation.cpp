@@ -26,8 +26,8 @@ ScaleRules
 rulesOf(FilterScale filter_scale)
 {
   switch (filter_scale) {
-  case FilterScale::Coarse: return {{4.8, 3.0}, {9.6, 6.0}, {13.2, 8.0}};
-  case FilterScale::Fine: return {{2.4, 3.0}, {4.4, 4.5}, {5.5, 6.0}};
+  case FilterScale::Coarse: return {{4.8, 3.6}, {9.6, 7.0}, {13.2, 10.0}};
+  case FilterScale::Fine: return {{2.4, 3.6}, {4.4, 5.2}, {5.0, 7.2}};
   default: return {{4.0, 3.0}, {8.0, 6.0}, {11.0, 8.0}};
   }
 }

@@ -134,7 +134,7 @@ selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, Poi
     return fine;
   const std::size_t threads = resolveThreads(p.number_of_threads);
   const double patch = boundedRadius(std::max(kPatchNoises * p.noise, kPatchSpacings * p.spacing));
-  const double hearing = boundedRadius(kHearing * patch);
+  const double hearing = boundedRadius((getenv("HEAR")?atof(getenv("HEAR")):kHearing) * patch);
   const double dense = kPi * hearing * hearing / (p.spacing * p.spacing) / kMostProbes;
   std::size_t stride = 1;
   while (static_cast<double>(stride) < dense && stride < points.size())
@@ -144,11 +144,12 @@ selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, Poi
   averageHeights(points.sorted(), coarse_positions, coarse_normals, patch, probes, threads);
   const std::vector<float> in_patch(probes.weight.data(), probes.weight.data() + probes.size);
   const std::vector<double> bias_sq = squaredBias(p.noise * p.noise, hearing, probes, threads);
+  const char* e_pen = getenv("PEN"); const double pen = e_pen ? atof(e_pen) : 2.0;
   const double variance = kSpread * kSpread * p.noise * p.noise * patch * patch; // divided by the data in a ball of radius 1
   for (std::size_t k = 0; k < probes.size; ++k) {
     const double data = std::max(1.0f, in_patch[k]);
-    const double coarse_risk = bias_sq[k] + 2.0 * variance / (data * p.coarse_radius * p.coarse_radius);
-    const double fine_risk = 2.0 * variance / (data * p.fine_radius * p.fine_radius);
+    const double coarse_risk = bias_sq[k] + pen * variance / (data * p.coarse_radius * p.coarse_radius);
+    const double fine_risk = pen * variance / (data * p.fine_radius * p.fine_radius);
     const std::size_t end = std::min(points.size(), (k + 1) * stride);
     for (std::size_t i = k * stride; i < end; ++i)
       fine[i] = coarse_risk > fine_risk;
