@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_gpf/core/point_index.h>
+#include <pcl_gpf/core/views.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** The widest gap beside a point v, weighted by the edge that it lies across. */
+struct Gap {
+  std::array<float, 3> base{0.0f, 0.0f, 0.0f}; ///< b, the middle of v and t
+  float clearance_sq = 0.0f;                   ///< C(b)
+  float priority = 0.0f;                       ///< (2 - n_v.n_t)^rho C(b); 0 = there is no gap
+  std::uint32_t partner = 0;                   ///< t, in sorted order
+};
+
+/** EAR's base selection over points in sorted order. Const, and safe to share between threads. */
+class GapSearch {
+public:
+  /** Neighbours beyond this many, the nearest ones, are left out, so that dense places cost no more than others. */
+  static constexpr std::size_t kMostNeighbors = 48;
+
+  /** Memory that a thread uses again for each query. */
+  struct Scratch {
+    static constexpr std::size_t kSize = kMostNeighbors + 8; ///< v itself, and padding to whole groups of 8
+    std::vector<Run> runs;
+    std::vector<std::pair<float, std::uint32_t>> near; ///< squared distance and place
+    alignas(64) float x[kSize], y[kSize], z[kSize];    ///< neighbours relative to v
+    alignas(64) float nx[kSize], ny[kSize], nz[kSize];
+    std::uint32_t place[kSize];
+  };
+
+  GapSearch(double edge_sensitivity, bool sign_invariant);
+
+  /** The gap of greatest priority between point `v` and its neighbours within `radius`. */
+  Gap
+  widest(const PointIndex& points, NormalsView normals, std::size_t v, float radius, Scratch& scratch) const;
+
+private:
+  static std::size_t
+  collect(const PointIndex& points, NormalsView normals, std::size_t v, float radius, Scratch& scratch);
+  float
+  edgeFactor(float cosine) const;
+
+  std::vector<float> edge_factors_; ///< (2 - c)^rho at even steps of c from 1 down to -1
+  bool sign_invariant_;
+};
+
+} // namespace pcl_gpf

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "upsampling_rounds.h"
+
+#include <pcl_gpf/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr std::size_t kPointsPerTask = 256;
+constexpr std::size_t kCopiesPerTask = 65536;
+/** Clearances below this, in the frame whose box diagonal is 1, are rounding. */
+constexpr float kLeastClearance = 1e-6f;
+/** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
+constexpr float kReachInClearances = 4.5f;
+constexpr float kUnknown = std::numeric_limits<float>::infinity();
+
+SoaBuffer
+inOrder(VectorsView from, const std::vector<std::uint32_t>& order, std::size_t threads)
+{
+  SoaBuffer to(order.size());
+  parallelBlocks(order.size(), kCopiesPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      to.x[k] = from.x[order[k]];
+      to.y[k] = from.y[order[k]];
+      to.z[k] = from.z[order[k]];
+    }
+  });
+  return to;
+}
+
+} // namespace
+
+UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, PointsView points, SoaBuffer unit_normals)
+: plan_(plan)
+, input_size_(points.size)
+, input_(std::make_unique<PointIndex>(points, static_cast<unsigned>(plan.threads)))
+, input_normals_(inOrder(unit_normals.view(), input_->order(), plan.threads))
+, projection_(*input_, static_cast<const SoaBuffer&>(input_normals_).view(), plan.radius, plan.angle, plan.sign_invariant)
+, search_(plan.edge_sensitivity, plan.sign_invariant)
+, x_(points.x, points.x + points.size)
+, y_(points.y, points.y + points.size)
+, z_(points.z, points.z + points.size)
+, nx_(unit_normals.x.begin(), unit_normals.x.end())
+, ny_(unit_normals.y.begin(), unit_normals.y.end())
+, nz_(unit_normals.z.begin(), unit_normals.z.end())
+, gaps_(points.size)
+, stale_(points.size, 1)
+, radius_(static_cast<float>(plan.radius))
+{
+  const float least = std::max(kLeastClearance, static_cast<float>(plan.least_clearance));
+  least_clearance_sq_ = least * least;
+  for (Gap& gap : gaps_)
+    gap.priority = gap.clearance_sq = kUnknown;
+}
+
+void
+UpsamplingRounds::indexPoints()
+{
+  index_ = std::make_unique<PointIndex>(positions(), static_cast<unsigned>(plan_.threads));
+  sorted_normals_ = inOrder({nx_.data(), ny_.data(), nz_.data(), size()}, index_->order(), plan_.threads);
+}
+
+void
+UpsamplingRounds::refresh(float least)
+{
+  const std::vector<std::uint32_t>& order = index_->order();
+  const NormalsView normals = static_cast<const SoaBuffer&>(sorted_normals_).view();
+  parallelBlocks(size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+    GapSearch::Scratch scratch;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = order[k];
+      if (!stale_[i] || gaps_[i].priority < least)
+        continue;
+      gaps_[i] = search_.widest(*index_, normals, k, radius_, scratch);
+      gaps_[i].partner = order[gaps_[i].partner];
+      stale_[i] = 0;
+    }
+  });
+}
+
+bool
+UpsamplingRounds::counts(const Gap& gap) const
+{
+  return gap.clearance_sq >= least_clearance_sq_ && gap.priority > 0.0f;
+}
+
+float
+UpsamplingRounds::upperHalf() const
+{
+  std::vector<float> priorities;
+  priorities.reserve(gaps_.size());
+  for (const Gap& gap : gaps_)
+    if (counts(gap))
+      priorities.push_back(gap.priority);
+  if (priorities.empty())
+    return kUnknown;
+  const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(priorities.size() / 2);
+  std::nth_element(priorities.begin(), middle, priorities.end());
+  return *middle;
+}
+
+std::vector<std::uint32_t>
+UpsamplingRounds::chooseBases(float least)
+{
+  std::vector<std::uint32_t> rivals;
+  for (std::size_t i = 0; i < gaps_.size(); ++i)
+    if (!stale_[i] && gaps_[i].priority >= least && counts(gaps_[i]))
+      rivals.push_back(static_cast<std::uint32_t>(i));
+  SoaBuffer bases(rivals.size());
+  for (std::size_t r = 0; r < rivals.size(); ++r) {
+    bases.x[r] = gaps_[rivals[r]].base[0];
+    bases.y[r] = gaps_[rivals[r]].base[1];
+    bases.z[r] = gaps_[rivals[r]].base[2];
+  }
+  const PointIndex near(static_cast<const SoaBuffer&>(bases).view(), static_cast<unsigned>(plan_.threads));
+  const PointsView b = near.sorted();
+  std::vector<std::uint8_t> wins(rivals.size(), 0);
+  // Calls f with every other base closer to the k-th than its clearance, until f returns false.
+  const auto forRivals = [&](std::size_t k, std::vector<Run>& runs, const auto& f) {
+    const float clearance_sq = gaps_[rivals[near.order()[k]]].clearance_sq;
+    const std::array<float, 3> p{b.x[k], b.y[k], b.z[k]};
+    runs.clear();
+    near.tree().collectRuns({p, p}, std::sqrt(clearance_sq), runs);
+    for (const Run run : runs)
+      for (std::uint32_t j = run.begin; j < run.end; ++j) {
+        const float dx = b.x[j] - p[0], dy = b.y[j] - p[1], dz = b.z[j] - p[2];
+        if (j != k && dx * dx + dy * dy + dz * dz < clearance_sq && !f(j))
+          return;
+      }
+  };
+  parallelBlocks(rivals.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Run> runs;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = rivals[near.order()[k]];
+      bool best = true;
+      forRivals(k, runs, [&](std::uint32_t j) {
+        const std::uint32_t other = rivals[near.order()[j]];
+        const float mine = gaps_[i].priority, theirs = gaps_[other].priority;
+        best = theirs < mine || (theirs == mine && other > i);
+        return best;
+      });
+      wins[k] = best;
+    }
+  });
+  parallelBlocks(rivals.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Run> runs;
+    for (std::size_t k = begin; k < end; ++k)
+      if (!wins[k])
+        forRivals(k, runs, [&](std::uint32_t j) {
+          stale_[rivals[near.order()[k]]] |= wins[j];
+          return !wins[j];
+        });
+  });
+  std::vector<std::uint32_t> chosen;
+  for (std::size_t k = 0; k < rivals.size(); ++k)
+    if (wins[k])
+      chosen.push_back(rivals[near.order()[k]]);
+  return chosen;
+}
+
+void
+UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
+{
+  const std::size_t first = size(), count = chosen.size();
+  for (std::vector<float>* values : {&x_, &y_, &z_, &nx_, &ny_, &nz_})
+    values->resize(first + count);
+  for (std::vector<std::uint32_t>* values : {&parents_, &first_base_, &second_base_})
+    values->resize(first - input_size_ + count);
+  parallelBlocks(count, kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+    BilateralProjection::Scratch scratch;
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::size_t v = chosen[c], t = gaps_[v].partner, to = first + c, inserted = to - input_size_;
+      const ProjectedPoint p =
+          projection_.project(gaps_[v].base, {nx_[v], ny_[v], nz_[v]}, {nx_[t], ny_[t], nz_[t]}, scratch);
+      x_[to] = p.position[0];
+      y_[to] = p.position[1];
+      z_[to] = p.position[2];
+      nx_[to] = p.normal[0];
+      ny_[to] = p.normal[1];
+      nz_[to] = p.normal[2];
+      first_base_[inserted] = static_cast<std::uint32_t>(v);
+      second_base_[inserted] = static_cast<std::uint32_t>(t);
+      parents_[inserted] = p.found          ? input_->order()[p.nearest]
+                           : v < input_size_ ? static_cast<std::uint32_t>(v)
+                                             : parents_[v - input_size_];
+      stale_[v] = 1;
+    }
+  });
+  Gap unknown;
+  unknown.priority = unknown.clearance_sq = kUnknown;
+  gaps_.resize(first + count, unknown);
+  stale_.resize(first + count, 1);
+}
+
+bool
+UpsamplingRounds::step()
+{
+  if (size() >= plan_.target)
+    return false;
+  indexPoints();
+  refresh(kUnknown);
+  const float least = upperHalf();
+  refresh(least);
+  std::vector<std::uint32_t> chosen = chooseBases(least);
+  // Gaps that proved to be smaller than they were thought may all have dropped out of the upper half: take the next half.
+  if (chosen.empty()) {
+    if (!(least < kUnknown))
+      return false;
+    return true;
+  }
+  const auto better = [this](std::uint32_t a, std::uint32_t b) {
+    return gaps_[a].priority > gaps_[b].priority || (gaps_[a].priority == gaps_[b].priority && a < b);
+  };
+  std::sort(chosen.begin(), chosen.end(), better);
+  chosen.resize(std::min(chosen.size(), plan_.target - size()));
+  if (rounds_++ == 0)
+    first_priority_ = static_cast<double>(gaps_[chosen.front()].priority);
+  last_priority_ = least;
+  insert(chosen);
+  radius_ = std::min(radius_, kReachInClearances * std::sqrt(least));
+  return true;
+}
+
+double
+UpsamplingRounds::fractionDone() const
+{
+  const double by_count = static_cast<double>(size() - input_size_) / std::max(1.0, static_cast<double>(plan_.target - input_size_));
+  if (plan_.least_clearance <= 0.0 || rounds_ == 0)
+    return plan_.least_clearance > 0.0 ? 0.0 : by_count;
+  const double goal = std::log(first_priority_ / static_cast<double>(least_clearance_sq_));
+  const double come = std::log(first_priority_ / static_cast<double>(last_priority_));
+  return goal > 0.0 ? std::clamp(come / goal, 0.0, 1.0) : 1.0;
+}
+
+EdgeAwareUpsamplingResult
+UpsamplingRounds::result() const
+{
+  EdgeAwareUpsamplingResult result;
+  const std::size_t count = size() - input_size_;
+  result.points = SoaBuffer(count);
+  result.normals = SoaBuffer(count);
+  const auto copy = [&](const std::vector<float>& from, AlignedArray<float>& to) {
+    std::copy(from.begin() + static_cast<std::ptrdiff_t>(input_size_), from.end(), to.begin());
+  };
+  copy(x_, result.points.x);
+  copy(y_, result.points.y);
+  copy(z_, result.points.z);
+  copy(nx_, result.normals.x);
+  copy(ny_, result.normals.y);
+  copy(nz_, result.normals.z);
+  result.parents = parents_;
+  result.first_base = first_base_;
+  result.second_base = second_base_;
+  result.radius = plan_.radius;
+  float widest = 0.0f;
+  for (const Gap& gap : gaps_)
+    if (gap.clearance_sq < kUnknown)
+      widest = std::max(widest, gap.clearance_sq);
+  result.widest_gap = std::sqrt(static_cast<double>(widest));
+  result.rounds = rounds_;
+  result.target_reached = plan_.least_clearance > 0.0 || size() >= plan_.target;
+  return result;
+}
+
+} // namespace pcl_gpf
