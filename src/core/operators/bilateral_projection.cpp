@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bilateral_projection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -10,17 +11,20 @@ namespace {
 
 /** Sums below this are what is left of neighbours that all face elsewhere. */
 constexpr double kLeastWeight = 1e-6;
+/** Points are projected together while their box is at most this many radii wide. */
+constexpr float kWidestBox = 0.25f;
+constexpr double kLeastRatio = 0.5;
 
-/** exp(-x) for x >= 0, relative error below 4e-7; 0 beyond 87. Not that of the system, whose last bit differs between machines. */
-float
+/** exp(-x) for x >= 0, relative error below 4e-7; 0 beyond 87. Not that of the system, whose last bit differs between machines.
+ * Without branches, so that the compiler makes wide code of a loop over it. */
+inline float
 expMinus(float x)
 {
-  if (!(x < 87.0f))
-    return 0.0f;
   constexpr float kRounding = 12582912.0f; // 1.5 * 2^23: the sum's low bits are the rounded integer
-  const float shifted = x * -1.44269504f + kRounding;
+  const float bounded = x < 87.0f ? x : 87.0f;
+  const float shifted = bounded * -1.44269504f + kRounding;
   const float n = shifted - kRounding;
-  const float r = (-x - n * 0.693359375f) - n * -2.12194440e-4f;
+  const float r = (-bounded - n * 0.693359375f) - n * -2.12194440e-4f;
   float p = 1.0f / 720;
   p = p * r + 1.0f / 120;
   p = p * r + 1.0f / 24;
@@ -28,12 +32,12 @@ expMinus(float x)
   p = p * r + 0.5f;
   p = p * r + 1.0f;
   p = p * r + 1.0f;
-  std::int32_t exponent = 0, bits = 0;
+  std::uint32_t exponent = 0, bits = 0;
   std::memcpy(&exponent, &shifted, sizeof exponent);
   std::memcpy(&bits, &p, sizeof bits);
-  bits += static_cast<std::int32_t>(static_cast<std::uint32_t>(exponent) << 23);
+  bits += exponent << 23;
   std::memcpy(&p, &bits, sizeof p);
-  return p;
+  return x < 87.0f ? p : 0.0f;
 }
 
 } // namespace
@@ -53,68 +57,119 @@ BilateralProjection::BilateralProjection(const PointIndex& points, NormalsView n
 , radius_(static_cast<float>(radius))
 , distance_falloff_(static_cast<float>(4.0 / (radius * radius)))
 , angle_falloff_(static_cast<float>(1.0 / (1.0 - std::cos(angle))))
+, edge_cosine_(std::cos(angle))
 , sign_invariant_(sign_invariant)
 {}
 
 BilateralProjection::Side
-BilateralProjection::sumUp(const std::array<float, 3>& b, const std::array<float, 3>& normal, const Scratch& s) const
+BilateralProjection::sumUp(const std::array<float, 3>& b, const std::array<float, 3>& normal, Scratch& s) const
 {
-  const PointsView p = points_.sorted();
+  const NearbyPoints& q = s.candidates_;
+  const std::size_t count = q.size();
+  const float* distance_weight = s.distance_weight_.data();
+  float* weights = s.weight_.data();
+  for (std::size_t k = 0; k < count; ++k) {
+    const float cosine = normal[0] * q.nx[k] + normal[1] * q.ny[k] + normal[2] * q.nz[k];
+    const float aligned = sign_invariant_ ? std::abs(cosine) : cosine;
+    const float turn = (1.0f - aligned) * angle_falloff_;
+    weights[k] = distance_weight[k] * expMinus(turn * turn);
+  }
   Side side;
-  float largest = -1.0f;
-  for (std::size_t k = 0; k < s.near.size(); ++k) {
-    const std::uint32_t q = s.near[k];
-    const float cosine = normal[0] * normals_.x[q] + normal[1] * normals_.y[q] + normal[2] * normals_.z[q];
-    const float sign = sign_invariant_ && cosine < 0.0f ? -1.0f : 1.0f;
-    const float turn = (1.0f - sign * cosine) * angle_falloff_;
-    const float weight = s.distance_weight[k] * expMinus(turn * turn);
-    const float nx = sign * normals_.x[q], ny = sign * normals_.y[q], nz = sign * normals_.z[q];
-    const float above = (b[0] - p.x[q]) * nx + (b[1] - p.y[q]) * ny + (b[2] - p.z[q]) * nz;
+  float largest = 0.0f;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float weight = weights[k];
+    if (!(weight > 0.0f))
+      continue;
+    const float cosine = normal[0] * q.nx[k] + normal[1] * q.ny[k] + normal[2] * q.nz[k];
+    const float signed_weight = sign_invariant_ && cosine < 0.0f ? -weight : weight;
+    const float above = (b[0] - q.x[k]) * q.nx[k] + (b[1] - q.y[k]) * q.ny[k] + (b[2] - q.z[k]) * q.nz[k];
     side.weight += weight;
-    side.offset += weight * above;
-    side.normal[0] += weight * nx;
-    side.normal[1] += weight * ny;
-    side.normal[2] += weight * nz;
+    side.offset += signed_weight * above;
+    side.normal[0] += signed_weight * q.nx[k];
+    side.normal[1] += signed_weight * q.ny[k];
+    side.normal[2] += signed_weight * q.nz[k];
     if (weight > largest) {
       largest = weight;
-      side.nearest = q;
+      side.nearest = q.places[k];
     }
   }
-  side.offset = side.weight > kLeastWeight ? side.offset / side.weight : 0.0;
+  const double length = std::sqrt(side.normal[0] * side.normal[0] + side.normal[1] * side.normal[1] + side.normal[2] * side.normal[2]);
+  if (!(length > kLeastWeight)) {
+    side.weight = 0.0;
+    return side;
+  }
+  side.offset /= side.weight;
+  for (double& n : side.normal)
+    n /= length;
   return side;
 }
 
 ProjectedPoint
-BilateralProjection::project(const std::array<float, 3>& b, const std::array<float, 3>& first,
-                             const std::array<float, 3>& second, Scratch& s) const
+BilateralProjection::projectOne(const Query& query, Scratch& s) const
 {
-  const PointsView p = points_.sorted();
-  s.runs.clear();
-  s.near.clear();
-  s.distance_weight.clear();
-  points_.tree().collectRuns({b, b}, radius_, s.runs);
-  for (const Run run : s.runs)
-    for (std::uint32_t q = run.begin; q < run.end; ++q) {
-      const float dx = b[0] - p.x[q], dy = b[1] - p.y[q], dz = b[2] - p.z[q];
-      const float distance_sq = dx * dx + dy * dy + dz * dz;
-      if (distance_sq < radius_ * radius_) {
-        s.near.push_back(q);
-        s.distance_weight.push_back(expMinus(distance_sq * distance_falloff_));
-      }
-    }
-  const Side a = sumUp(b, first, s), c = sumUp(b, second, s);
+  const std::array<float, 3>& b = query.position;
+  const NearbyPoints& q = s.candidates_;
+  s.distance_weight_.resize(q.size());
+  s.weight_.resize(q.size());
+  const float radius_sq = radius_ * radius_;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    const float dx = b[0] - q.x[k], dy = b[1] - q.y[k], dz = b[2] - q.z[k];
+    const float distance_sq = dx * dx + dy * dy + dz * dz;
+    const float weight = expMinus(distance_sq * distance_falloff_);
+    s.distance_weight_[k] = distance_sq < radius_sq ? weight : 0.0f;
+  }
+  const Side a = sumUp(b, query.first, s), c = sumUp(b, query.second, s);
   const bool a_counts = a.weight > kLeastWeight, c_counts = c.weight > kLeastWeight;
   if (!a_counts && !c_counts)
-    return {b, first, 0, false};
+    return {b, query.first, 0, false};
   const bool take_a = a_counts && (!c_counts || std::abs(a.offset) <= std::abs(c.offset));
   const Side& side = take_a ? a : c;
-  const double length = std::sqrt(side.normal[0] * side.normal[0] + side.normal[1] * side.normal[1] + side.normal[2] * side.normal[2]);
-  ProjectedPoint result{b, take_a ? first : second, side.nearest, true};
-  for (std::size_t axis = 0; axis < 3 && length > 0.0; ++axis) {
-    result.normal[axis] = static_cast<float>(side.normal[axis] / length);
-    result.position[axis] = static_cast<float>(b[axis] - side.offset * side.normal[axis] / length);
+  std::array<double, 3> move{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    move[axis] = -side.offset * side.normal[axis];
+  if (a_counts && c_counts)
+    moveOntoEdge(a, c, query.longest_move, move);
+  ProjectedPoint result{b, {}, side.nearest, true};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.normal[axis] = static_cast<float>(side.normal[axis]);
+    result.position[axis] = static_cast<float>(b[axis] + move[axis]);
   }
   return result;
+}
+
+/** The shortest move onto both planes, if they meet at an angle and near enough. */
+void
+BilateralProjection::moveOntoEdge(const Side& a, const Side& c, double longest, std::array<double, 3>& move) const
+{
+  double cosine = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cosine += a.normal[axis] * c.normal[axis];
+  if ((sign_invariant_ ? std::abs(cosine) : cosine) > edge_cosine_ || !(cosine * cosine < 0.97))
+    return;
+  const double lesser = std::min(std::abs(a.offset), std::abs(c.offset)), larger = std::max(std::abs(a.offset), std::abs(c.offset));
+  if (lesser < kLeastRatio * larger)
+    return;
+  const double scale = 1.0 / (1.0 - cosine * cosine);
+  const double along_a = (a.offset - cosine * c.offset) * scale, along_c = (c.offset - cosine * a.offset) * scale;
+  std::array<double, 3> onto{};
+  double length_sq = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    onto[axis] = -(along_a * a.normal[axis] + along_c * c.normal[axis]);
+    length_sq += onto[axis] * onto[axis];
+  }
+  if (length_sq <= longest * longest)
+    move = onto;
+}
+
+void
+BilateralProjection::project(const std::vector<Query>& queries, Scratch& scratch, ProjectedPoint* results) const
+{
+  const auto position = [&](std::size_t k) { return queries[k].position; };
+  forPatches(0, queries.size(), kWidestBox * radius_, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+    scratch.candidates_.fill(points_, normals_, box, radius_);
+    for (std::size_t k = first; k < last; ++k)
+      results[k] = projectOne(queries[k], scratch);
+  });
 }
 
 } // namespace pcl_gpf

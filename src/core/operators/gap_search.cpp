@@ -15,30 +15,8 @@ constexpr float kParallel = 0.70710678f;
 constexpr float kSteepSq = 0.5f;
 /** Normals that face apart more than this belong to the two sides of a sheet, not to an edge. */
 constexpr float kOpposite = -0.9f;
-
-/** Least squared distance of `b` from the lines through the neighbours along their normals; stops below `enough`. */
-float
-clearance(const GapSearch::Scratch& s, std::size_t padded, const std::array<float, 3>& b, float enough)
-{
-  float least[kGroup];
-  std::fill_n(least, kGroup, s.x[0] + 1e30f);
-  float all = 1e30f;
-  for (std::size_t first = 0; first < padded; first += kGroup) {
-    for (std::size_t c = 0; c < kGroup; ++c) {
-      const float ex = b[0] - s.x[first + c], ey = b[1] - s.y[first + c], ez = b[2] - s.z[first + c];
-      const float along = ex * s.nx[first + c] + ey * s.ny[first + c] + ez * s.nz[first + c];
-      const float across_sq = ex * ex + ey * ey + ez * ez - along * along;
-      least[c] = across_sq < least[c] ? across_sq : least[c];
-    }
-    float pair[kGroup / 2];
-    for (std::size_t c = 0; c < kGroup / 2; ++c)
-      pair[c] = std::min(least[c], least[c + kGroup / 2]);
-    all = std::min(std::min(pair[0], pair[1]), std::min(pair[2], pair[3]));
-    if (all <= enough)
-      break;
-  }
-  return all;
-}
+/** Points are searched together while their box is at most this many radii wide. */
+constexpr float kWidestBox = 1.0f;
 
 } // namespace
 
@@ -60,75 +38,99 @@ GapSearch::edgeFactor(float cosine) const
 }
 
 std::size_t
-GapSearch::collect(const PointIndex& points, NormalsView normals, std::size_t v, float radius, Scratch& s)
+GapSearch::Scratch::collect(std::size_t self, float radius)
 {
-  const PointsView p = points.sorted();
-  const std::array<float, 3> centre{p.x[v], p.y[v], p.z[v]};
-  s.runs.clear();
-  s.near.clear();
-  points.tree().collectRuns({centre, centre}, radius, s.runs);
+  const NearbyPoints& from = candidates_;
+  const float cx = from.x[self], cy = from.y[self], cz = from.z[self];
+  const std::size_t candidates = from.size();
+  distance_sq_.resize(candidates);
+  chosen_.resize(candidates + 1);
+  for (std::size_t j = 0; j < candidates; ++j) {
+    const float dx = from.x[j] - cx, dy = from.y[j] - cy, dz = from.z[j] - cz;
+    distance_sq_[j] = dx * dx + dy * dy + dz * dz;
+  }
   const float radius_sq = radius * radius;
-  for (const Run run : s.runs)
-    for (std::uint32_t j = run.begin; j < run.end; ++j) {
-      const float dx = p.x[j] - centre[0], dy = p.y[j] - centre[1], dz = p.z[j] - centre[2];
-      const float distance_sq = dx * dx + dy * dy + dz * dz;
-      if (distance_sq < radius_sq && j != v)
-        s.near.emplace_back(distance_sq, j);
-    }
-  if (s.near.size() >= kMostNeighbors) {
-    std::nth_element(s.near.begin(), s.near.begin() + (kMostNeighbors - 1), s.near.end());
-    s.near.resize(kMostNeighbors - 1);
-  }
-  s.near.emplace_back(0.0f, static_cast<std::uint32_t>(v)); // last, so that it is no candidate but counts as a neighbour
   std::size_t count = 0;
-  for (const auto& [distance_sq, j] : s.near) {
-    s.x[count] = p.x[j] - centre[0];
-    s.y[count] = p.y[j] - centre[1];
-    s.z[count] = p.z[j] - centre[2];
-    s.nx[count] = normals.x[j];
-    s.ny[count] = normals.y[j];
-    s.nz[count] = normals.z[j];
-    s.place[count++] = j;
+  for (std::size_t j = 0; j < candidates; ++j) {
+    chosen_[count] = static_cast<std::uint32_t>(j);
+    count += (distance_sq_[j] < radius_sq) & (j != self);
   }
-  for (std::size_t c = count; c % kGroup != 0; ++c) {
-    s.x[c] = 1e10f; // its square is finite, and no clearance is as large
-    s.y[c] = s.z[c] = s.nx[c] = s.ny[c] = s.nz[c] = 0.0f;
+  if (count > kMostNeighbors) {
+    const auto begin = chosen_.begin(), end = begin + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(kMostNeighbors), end, [this](std::uint32_t a, std::uint32_t b) {
+      return distance_sq_[a] < distance_sq_[b] || (distance_sq_[a] == distance_sq_[b] && a < b);
+    });
+    count = kMostNeighbors;
+  }
+  chosen_[count] = static_cast<std::uint32_t>(self);
+  for (std::size_t k = 0; k <= count; ++k) {
+    const std::uint32_t j = chosen_[k];
+    near_.x[k] = from.x[j] - cx;
+    near_.y[k] = from.y[j] - cy;
+    near_.z[k] = from.z[j] - cz;
+    near_.nx[k] = from.nx[j];
+    near_.ny[k] = from.ny[j];
+    near_.nz[k] = from.nz[j];
+    near_.place[k] = from.places[j];
   }
   return count;
 }
 
 Gap
-GapSearch::widest(const PointIndex& points, NormalsView normals, std::size_t v, float radius, Scratch& s) const
+GapSearch::widestOf(std::uint32_t v, float radius, Scratch& scratch) const
 {
-  const std::size_t count = collect(points, normals, v, radius, s);
+  const NearbyPoints& from = scratch.candidates_;
+  const auto self = static_cast<std::size_t>(std::lower_bound(from.places.begin(), from.places.end(), v) - from.places.begin());
+  const std::size_t count = scratch.collect(self, radius);
+  const auto& s = scratch.near_;
   const std::size_t padded = (count + kGroup - 1) / kGroup * kGroup;
-  const float nx = normals.x[v], ny = normals.y[v], nz = normals.z[v];
+  alignas(64) float bx[Scratch::kSize] = {}, by[Scratch::kSize] = {}, bz[Scratch::kSize] = {}, least_sq[Scratch::kSize];
+  for (std::size_t t = 0; t < count; ++t) {
+    bx[t] = 0.5f * s.x[t];
+    by[t] = 0.5f * s.y[t];
+    bz[t] = 0.5f * s.z[t];
+  }
+  std::fill_n(least_sq, padded, 1e30f);
+  for (std::size_t k = 0; k <= count; ++k) {
+    const float x = s.x[k], y = s.y[k], z = s.z[k], nx = s.nx[k], ny = s.ny[k], nz = s.nz[k];
+    for (std::size_t t = 0; t < padded; ++t) {
+      const float ex = bx[t] - x, ey = by[t] - y, ez = bz[t] - z;
+      const float along = ex * nx + ey * ny + ez * nz;
+      const float across_sq = ex * ex + ey * ey + ez * ez - along * along;
+      least_sq[t] = across_sq < least_sq[t] ? across_sq : least_sq[t];
+    }
+  }
   Gap gap;
-  for (std::size_t t = 0; t + 1 < count; ++t) {
-    float cosine = nx * s.nx[t] + ny * s.ny[t] + nz * s.nz[t];
-    if (!sign_invariant_ && cosine < kOpposite)
-      continue;
+  const float nx = s.nx[count], ny = s.ny[count], nz = s.nz[count];
+  for (std::size_t t = 0; t < count; ++t) {
+    const float cosine = nx * s.nx[t] + ny * s.ny[t] + nz * s.nz[t];
     const float along = nx * s.x[t] + ny * s.y[t] + nz * s.z[t];
     const float distance_sq = s.x[t] * s.x[t] + s.y[t] * s.y[t] + s.z[t] * s.z[t];
     const float aligned = std::abs(cosine);
-    if (aligned > kParallel && along * along > kSteepSq * distance_sq)
+    if ((aligned > kParallel && along * along > kSteepSq * distance_sq) || (!sign_invariant_ && cosine < kOpposite))
       continue;
-    const float factor = edgeFactor(sign_invariant_ ? aligned : cosine);
-    const float enough = gap.priority / factor;
-    if (0.25f * distance_sq <= enough)
-      continue;
-    const std::array<float, 3> b{0.5f * s.x[t], 0.5f * s.y[t], 0.5f * s.z[t]};
-    const float clearance_sq = clearance(s, padded, b, enough);
-    if (clearance_sq * factor > gap.priority) {
-      gap.clearance_sq = clearance_sq;
-      gap.priority = clearance_sq * factor;
-      gap.base = b;
+    const float priority = least_sq[t] * edgeFactor(sign_invariant_ ? aligned : cosine);
+    if (priority > gap.priority) {
+      gap.clearance_sq = least_sq[t];
+      gap.priority = priority;
+      gap.base = {from.x[self] + bx[t], from.y[self] + by[t], from.z[self] + bz[t]};
       gap.partner = s.place[t];
     }
   }
-  const PointsView p = points.sorted();
-  gap.base = {p.x[v] + gap.base[0], p.y[v] + gap.base[1], p.z[v] + gap.base[2]};
   return gap;
+}
+
+void
+GapSearch::widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end, float radius,
+                  Scratch& scratch, Gap* gaps) const
+{
+  const PointsView p = points.sorted();
+  const auto position = [&](std::size_t k) { return std::array<float, 3>{p.x[k], p.y[k], p.z[k]}; };
+  forPatches(begin, end, kWidestBox * radius, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+    scratch.candidates_.fill(points, normals, box, radius);
+    for (std::size_t k = first; k < last; ++k)
+      gaps[k] = widestOf(static_cast<std::uint32_t>(k), radius, scratch);
+  });
 }
 
 } // namespace pcl_gpf

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "patches.h"
+
 #include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
 
@@ -24,32 +26,43 @@ struct Gap {
 class GapSearch {
 public:
   /** Neighbours beyond this many, the nearest ones, are left out, so that dense places cost no more than others. */
-  static constexpr std::size_t kMostNeighbors = 48;
+  static constexpr std::size_t kMostNeighbors = 40;
 
   /** Memory that a thread uses again for each query. */
-  struct Scratch {
-    static constexpr std::size_t kSize = kMostNeighbors + 8; ///< v itself, and padding to whole groups of 8
-    std::vector<Run> runs;
-    std::vector<std::pair<float, std::uint32_t>> near; ///< squared distance and place
-    alignas(64) float x[kSize], y[kSize], z[kSize];    ///< neighbours relative to v
-    alignas(64) float nx[kSize], ny[kSize], nz[kSize];
-    std::uint32_t place[kSize];
-  };
+  class Scratch;
 
   GapSearch(double edge_sensitivity, bool sign_invariant);
 
-  /** The gap of greatest priority between point `v` and its neighbours within `radius`. */
-  Gap
-  widest(const PointIndex& points, NormalsView normals, std::size_t v, float radius, Scratch& scratch) const;
+  /** The gap of greatest priority between each of the sorted points [begin, end) and its neighbours within `radius`, into gaps[k]. */
+  void
+  widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end, float radius, Scratch& scratch, Gap* gaps) const;
 
 private:
-  static std::size_t
-  collect(const PointIndex& points, NormalsView normals, std::size_t v, float radius, Scratch& scratch);
+  Gap
+  widestOf(std::uint32_t v, float radius, Scratch& scratch) const;
   float
   edgeFactor(float cosine) const;
 
   std::vector<float> edge_factors_; ///< (2 - c)^rho at even steps of c from 1 down to -1
   bool sign_invariant_;
+};
+
+class GapSearch::Scratch {
+  friend class GapSearch;
+  static constexpr std::size_t kSize = (kMostNeighbors + 15) / 8 * 8; ///< v itself, and padding to whole groups of 8
+
+  /** Makes the neighbours of candidate `self`. \return how many, `self` not counted */
+  std::size_t
+  collect(std::size_t self, float radius);
+
+  NearbyPoints candidates_; ///< of several points
+  std::vector<float> distance_sq_;
+  std::vector<std::uint32_t> chosen_;
+  /** Neighbours relative to v, v itself behind them. */
+  struct {
+    alignas(64) float x[kSize], y[kSize], z[kSize], nx[kSize], ny[kSize], nz[kSize];
+    std::uint32_t place[kSize];
+  } near_;
 };
 
 } // namespace pcl_gpf

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <limits>
 
 namespace pcl_gpf {
@@ -16,7 +17,9 @@ constexpr std::size_t kCopiesPerTask = 65536;
 /** Clearances below this, in the frame whose box diagonal is 1, are rounding. */
 constexpr float kLeastClearance = 1e-6f;
 /** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
-constexpr float kReachInClearances = 4.5f;
+constexpr float kReachInClearances = 3.6f;
+/** Share of the gaps, those of least priority, that take no part in a round: so the widest are filled first. */
+constexpr double kShareLeft = 0.3;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 SoaBuffer
@@ -48,14 +51,10 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, PointsView points
 , nx_(unit_normals.x.begin(), unit_normals.x.end())
 , ny_(unit_normals.y.begin(), unit_normals.y.end())
 , nz_(unit_normals.z.begin(), unit_normals.z.end())
-, gaps_(points.size)
-, stale_(points.size, 1)
 , radius_(static_cast<float>(plan.radius))
 {
   const float least = std::max(kLeastClearance, static_cast<float>(plan.least_clearance));
   least_clearance_sq_ = least * least;
-  for (Gap& gap : gaps_)
-    gap.priority = gap.clearance_sq = kUnknown;
 }
 
 void
@@ -66,20 +65,16 @@ UpsamplingRounds::indexPoints()
 }
 
 void
-UpsamplingRounds::refresh(float least)
+UpsamplingRounds::searchGaps()
 {
   const std::vector<std::uint32_t>& order = index_->order();
   const NormalsView normals = static_cast<const SoaBuffer&>(sorted_normals_).view();
+  gaps_.resize(size());
   parallelBlocks(size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     GapSearch::Scratch scratch;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t i = order[k];
-      if (!stale_[i] || gaps_[i].priority < least)
-        continue;
-      gaps_[i] = search_.widest(*index_, normals, k, radius_, scratch);
-      gaps_[i].partner = order[gaps_[i].partner];
-      stale_[i] = 0;
-    }
+    search_.widest(*index_, normals, begin, end, radius_, scratch, gaps_.data());
+    for (std::size_t k = begin; k < end; ++k)
+      gaps_[k].partner = order[gaps_[k].partner];
   });
 }
 
@@ -90,7 +85,7 @@ UpsamplingRounds::counts(const Gap& gap) const
 }
 
 float
-UpsamplingRounds::upperHalf() const
+UpsamplingRounds::leastPriority() const
 {
   std::vector<float> priorities;
   priorities.reserve(gaps_.size());
@@ -99,7 +94,7 @@ UpsamplingRounds::upperHalf() const
       priorities.push_back(gap.priority);
   if (priorities.empty())
     return kUnknown;
-  const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(priorities.size() / 2);
+  const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(priorities.size()) * kShareLeft);
   std::nth_element(priorities.begin(), middle, priorities.end());
   return *middle;
 }
@@ -109,7 +104,7 @@ UpsamplingRounds::chooseBases(float least)
 {
   std::vector<std::uint32_t> rivals;
   for (std::size_t i = 0; i < gaps_.size(); ++i)
-    if (!stale_[i] && gaps_[i].priority >= least && counts(gaps_[i]))
+    if (gaps_[i].priority >= least && counts(gaps_[i]))
       rivals.push_back(static_cast<std::uint32_t>(i));
   SoaBuffer bases(rivals.size());
   for (std::size_t r = 0; r < rivals.size(); ++r) {
@@ -120,41 +115,39 @@ UpsamplingRounds::chooseBases(float least)
   const PointIndex near(static_cast<const SoaBuffer&>(bases).view(), static_cast<unsigned>(plan_.threads));
   const PointsView b = near.sorted();
   std::vector<std::uint8_t> wins(rivals.size(), 0);
-  // Calls f with every other base closer to the k-th than its clearance, until f returns false.
-  const auto forRivals = [&](std::size_t k, std::vector<Run>& runs, const auto& f) {
-    const float clearance_sq = gaps_[rivals[near.order()[k]]].clearance_sq;
-    const std::array<float, 3> p{b.x[k], b.y[k], b.z[k]};
-    runs.clear();
-    near.tree().collectRuns({p, p}, std::sqrt(clearance_sq), runs);
-    for (const Run run : runs)
-      for (std::uint32_t j = run.begin; j < run.end; ++j) {
-        const float dx = b.x[j] - p[0], dy = b.y[j] - p[1], dz = b.z[j] - p[2];
-        if (j != k && dx * dx + dy * dy + dz * dz < clearance_sq && !f(j))
-          return;
-      }
-  };
-  parallelBlocks(rivals.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Run> runs;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t i = rivals[near.order()[k]];
-      bool best = true;
-      forRivals(k, runs, [&](std::uint32_t j) {
-        const std::uint32_t other = rivals[near.order()[j]];
-        const float mine = gaps_[i].priority, theirs = gaps_[other].priority;
-        best = theirs < mine || (theirs == mine && other > i);
-        return best;
+  std::vector<float> clearance_sq(rivals.size()), priority(rivals.size());
+  for (std::size_t k = 0; k < rivals.size(); ++k) {
+    clearance_sq[k] = gaps_[rivals[near.order()[k]]].clearance_sq;
+    priority[k] = gaps_[rivals[near.order()[k]]].priority;
+  }
+  // Calls f(k, j) for all pairs of bases closer than the clearance of the k-th, as long as f returns true.
+  const auto forPairs = [&](const auto& f) {
+    parallelBlocks(rivals.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+      std::vector<Run> runs;
+      const auto position = [&b](std::size_t k) { return std::array<float, 3>{b.x[k], b.y[k], b.z[k]}; };
+      const float reach = std::sqrt(*std::max_element(clearance_sq.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                      clearance_sq.begin() + static_cast<std::ptrdiff_t>(end)));
+      forPatches(begin, end, 2.0f * reach, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+        runs.clear();
+        near.tree().collectRuns(box, reach, runs);
+        for (std::size_t k = first; k < last; ++k)
+          for (const Run run : runs) {
+            std::uint32_t j = run.begin;
+            for (; j < run.end; ++j) {
+              const float dx = b.x[j] - b.x[k], dy = b.y[j] - b.y[k], dz = b.z[j] - b.z[k];
+              if (dx * dx + dy * dy + dz * dz < clearance_sq[k] && j != k && !f(k, j))
+                break;
+            }
+            if (j < run.end)
+              break;
+          }
       });
-      wins[k] = best;
-    }
-  });
-  parallelBlocks(rivals.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Run> runs;
-    for (std::size_t k = begin; k < end; ++k)
-      if (!wins[k])
-        forRivals(k, runs, [&](std::uint32_t j) {
-          stale_[rivals[near.order()[k]]] |= wins[j];
-          return !wins[j];
-        });
+    });
+  };
+  std::fill(wins.begin(), wins.end(), std::uint8_t{1});
+  forPairs([&](std::size_t k, std::uint32_t j) {
+    wins[k] = priority[j] < priority[k] || (priority[j] == priority[k] && rivals[near.order()[j]] > rivals[near.order()[k]]);
+    return wins[k] != 0;
   });
   std::vector<std::uint32_t> chosen;
   for (std::size_t k = 0; k < rivals.size(); ++k)
@@ -173,10 +166,17 @@ UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
     values->resize(first - input_size_ + count);
   parallelBlocks(count, kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     BilateralProjection::Scratch scratch;
+    std::vector<BilateralProjection::Query> queries(end - begin);
+    std::vector<ProjectedPoint> projected(end - begin);
     for (std::size_t c = begin; c < end; ++c) {
-      const std::size_t v = chosen[c], t = gaps_[v].partner, to = first + c, inserted = to - input_size_;
-      const ProjectedPoint p =
-          projection_.project(gaps_[v].base, {nx_[v], ny_[v], nz_[v]}, {nx_[t], ny_[t], nz_[t]}, scratch);
+      const std::size_t v = index_->order()[chosen[c]], t = gaps_[chosen[c]].partner;
+      queries[c - begin] = {gaps_[chosen[c]].base, {nx_[v], ny_[v], nz_[v]}, {nx_[t], ny_[t], nz_[t]},
+                            std::sqrt((x_[v] - x_[t]) * (x_[v] - x_[t]) + (y_[v] - y_[t]) * (y_[v] - y_[t]) + (z_[v] - z_[t]) * (z_[v] - z_[t]))};
+    }
+    projection_.project(queries, scratch, projected.data());
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::size_t v = index_->order()[chosen[c]], t = gaps_[chosen[c]].partner, to = first + c, inserted = to - input_size_;
+      const ProjectedPoint& p = projected[c - begin];
       x_[to] = p.position[0];
       y_[to] = p.position[1];
       z_[to] = p.position[2];
@@ -188,13 +188,20 @@ UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
       parents_[inserted] = p.found          ? input_->order()[p.nearest]
                            : v < input_size_ ? static_cast<std::uint32_t>(v)
                                              : parents_[v - input_size_];
-      stale_[v] = 1;
     }
   });
-  Gap unknown;
-  unknown.priority = unknown.clearance_sq = kUnknown;
-  gaps_.resize(first + count, unknown);
-  stale_.resize(first + count, 1);
+}
+
+void
+UpsamplingRounds::keepBest(std::vector<std::uint32_t>& chosen, std::size_t count) const
+{
+  std::vector<std::uint32_t> ranked = chosen;
+  const auto better = [this](std::uint32_t a, std::uint32_t b) {
+    return gaps_[a].priority > gaps_[b].priority || (gaps_[a].priority == gaps_[b].priority && a < b);
+  };
+  std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count), ranked.end(), better);
+  const std::uint32_t first_left = ranked[count];
+  chosen.erase(std::remove_if(chosen.begin(), chosen.end(), [&](std::uint32_t i) { return !better(i, first_left); }), chosen.end());
 }
 
 bool
@@ -203,23 +210,15 @@ UpsamplingRounds::step()
   if (size() >= plan_.target)
     return false;
   indexPoints();
-  refresh(kUnknown);
-  const float least = upperHalf();
-  refresh(least);
+  searchGaps();
+  const float least = leastPriority();
   std::vector<std::uint32_t> chosen = chooseBases(least);
-  // Gaps that proved to be smaller than they were thought may all have dropped out of the upper half: take the next half.
-  if (chosen.empty()) {
-    if (!(least < kUnknown))
-      return false;
-    return true;
-  }
-  const auto better = [this](std::uint32_t a, std::uint32_t b) {
-    return gaps_[a].priority > gaps_[b].priority || (gaps_[a].priority == gaps_[b].priority && a < b);
-  };
-  std::sort(chosen.begin(), chosen.end(), better);
-  chosen.resize(std::min(chosen.size(), plan_.target - size()));
+  if (chosen.empty())
+    return false;
+  if (chosen.size() > plan_.target - size())
+    keepBest(chosen, plan_.target - size());
   if (rounds_++ == 0)
-    first_priority_ = static_cast<double>(gaps_[chosen.front()].priority);
+    first_priority_ = static_cast<double>(least);
   last_priority_ = least;
   insert(chosen);
   radius_ = std::min(radius_, kReachInClearances * std::sqrt(least));
@@ -259,7 +258,6 @@ UpsamplingRounds::result() const
   result.radius = plan_.radius;
   float widest = 0.0f;
   for (const Gap& gap : gaps_)
-    if (gap.clearance_sq < kUnknown)
       widest = std::max(widest, gap.clearance_sq);
   result.widest_gap = std::sqrt(static_cast<double>(widest));
   result.rounds = rounds_;

@@ -49,15 +49,17 @@ private:
 
   void
   indexPoints();
-  /** Searches the gaps of all points that are marked stale and whose priority is at least `least`. */
   void
-  refresh(float least);
+  searchGaps();
   bool
   counts(const Gap& gap) const;
   float
-  upperHalf() const;
+  leastPriority() const;
   std::vector<std::uint32_t>
   chooseBases(float least);
+  /** Leaves the `count` of greatest priority, in the order they have. */
+  void
+  keepBest(std::vector<std::uint32_t>& chosen, std::size_t count) const;
   void
   insert(const std::vector<std::uint32_t>& chosen);
 
@@ -70,11 +72,10 @@ private:
 
   std::vector<float> x_, y_, z_, nx_, ny_, nz_; ///< input, then inserted points
   std::vector<std::uint32_t> parents_, first_base_, second_base_; ///< of inserted points
-  std::vector<Gap> gaps_;                       ///< of every point; `partner` in the caller's order
-  std::vector<std::uint8_t> stale_;
 
   std::unique_ptr<PointIndex> index_; ///< over all points
   SoaBuffer sorted_normals_;
+  std::vector<Gap> gaps_;             ///< of every point, in the order of index_; `partner` is no place but a number
   float radius_ = 0;        ///< within which partners are sought; shrinks with the gaps
   float least_clearance_sq_ = 0;
   double first_priority_ = 0;
