@@ -64,7 +64,7 @@ BilateralProjection::BilateralProjection(const PointIndex& points, NormalsView n
 BilateralProjection::Side
 BilateralProjection::sumUp(const std::array<float, 3>& b, const std::array<float, 3>& normal, Scratch& s) const
 {
-  const NearbyPoints& q = s.candidates_;
+  const NearbyPoints& q = s.near_;
   const std::size_t count = q.size();
   const float* distance_weight = s.distance_weight_.data();
   float* weights = s.weight_.data();
@@ -108,16 +108,16 @@ ProjectedPoint
 BilateralProjection::projectOne(const Query& query, Scratch& s) const
 {
   const std::array<float, 3>& b = query.position;
-  const NearbyPoints& q = s.candidates_;
-  s.distance_weight_.resize(q.size());
-  s.weight_.resize(q.size());
-  const float radius_sq = radius_ * radius_;
-  for (std::size_t k = 0; k < q.size(); ++k) {
-    const float dx = b[0] - q.x[k], dy = b[1] - q.y[k], dz = b[2] - q.z[k];
-    const float distance_sq = dx * dx + dy * dy + dz * dz;
-    const float weight = expMinus(distance_sq * distance_falloff_);
-    s.distance_weight_[k] = distance_sq < radius_sq ? weight : 0.0f;
+  s.distance_sq_.resize(s.candidates_.size());
+  for (std::size_t k = 0; k < s.distance_sq_.size(); ++k) {
+    const float dx = b[0] - s.candidates_.x[k], dy = b[1] - s.candidates_.y[k], dz = b[2] - s.candidates_.z[k];
+    s.distance_sq_[k] = dx * dx + dy * dy + dz * dz;
   }
+  const std::size_t count = s.near_.select(s.candidates_, s.distance_sq_, radius_ * radius_);
+  s.distance_weight_.resize(count);
+  s.weight_.resize(count);
+  for (std::size_t k = 0; k < count; ++k)
+    s.distance_weight_[k] = expMinus(s.distance_sq_[k] * distance_falloff_);
   const Side a = sumUp(b, query.first, s), c = sumUp(b, query.second, s);
   const bool a_counts = a.weight > kLeastWeight, c_counts = c.weight > kLeastWeight;
   if (!a_counts && !c_counts)

@@ -32,7 +32,9 @@ public:
   class Scratch {
     friend class BilateralProjection;
     NearbyPoints candidates_;                 ///< of several queries
-    std::vector<float> distance_weight_, weight_; ///< of each candidate
+    std::vector<float> distance_sq_; ///< of each candidate
+    NearbyPoints near_;              ///< those within R of one query
+    std::vector<float> distance_weight_, weight_;
   };
 
   /** \param[in] angle sigma_n in radians */

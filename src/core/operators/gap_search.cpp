@@ -121,15 +121,21 @@ GapSearch::widestOf(std::uint32_t v, float radius, Scratch& scratch) const
 }
 
 void
-GapSearch::widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end, float radius,
-                  Scratch& scratch, Gap* gaps) const
+GapSearch::widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end,
+                  std::uint32_t first_new, float radius, Scratch& scratch, Gap* gaps) const
 {
   const PointsView p = points.sorted();
   const auto position = [&](std::size_t k) { return std::array<float, 3>{p.x[k], p.y[k], p.z[k]}; };
   forPatches(begin, end, kWidestBox * radius, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
     scratch.candidates_.fill(points, normals, box, radius);
-    for (std::size_t k = first; k < last; ++k)
-      gaps[k] = widestOf(static_cast<std::uint32_t>(k), radius, scratch);
+    const std::vector<std::uint32_t>& near = scratch.candidates_.places;
+    if (std::none_of(near.begin(), near.end(), [&](std::uint32_t j) { return points.order()[j] >= first_new; }))
+      return;
+    for (std::size_t k = first; k < last; ++k) {
+      Gap& gap = gaps[k - begin];
+      gap = widestOf(static_cast<std::uint32_t>(k), radius, scratch);
+      gap.partner = points.order()[gap.partner];
+    }
   });
 }
 

@@ -19,7 +19,7 @@ struct Gap {
   std::array<float, 3> base{0.0f, 0.0f, 0.0f}; ///< b, the middle of v and t
   float clearance_sq = 0.0f;                   ///< C(b)
   float priority = 0.0f;                       ///< (2 - n_v.n_t)^rho C(b); 0 = there is no gap
-  std::uint32_t partner = 0;                   ///< t, in sorted order
+  std::uint32_t partner = 0;                   ///< number of t in the order of the caller
 };
 
 /** EAR's base selection over points in sorted order. Const, and safe to share between threads. */
@@ -33,9 +33,11 @@ public:
 
   GapSearch(double edge_sensitivity, bool sign_invariant);
 
-  /** The gap of greatest priority between each of the sorted points [begin, end) and its neighbours within `radius`, into gaps[k]. */
+  /** The gap of greatest priority between each of the sorted points [begin, end) and its neighbours within `radius`, into
+   * gaps[k - begin]. Where no point near has a number of at least `first_new`, gaps stay as they are. */
   void
-  widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end, float radius, Scratch& scratch, Gap* gaps) const;
+  widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end, std::uint32_t first_new,
+         float radius, Scratch& scratch, Gap* gaps) const;
 
 private:
   Gap

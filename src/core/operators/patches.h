@@ -70,6 +70,29 @@ struct NearbyPoints {
         places.push_back(j);
   }
 
+  /** Copies those of `from` whose squared distance is below `limit`; their distances move to the front. \return how many */
+  std::size_t
+  select(const NearbyPoints& from, std::vector<float>& distance_sq, float limit)
+  {
+    for (std::vector<float>* values : {&x, &y, &z, &nx, &ny, &nz})
+      values->resize(from.size());
+    places.resize(from.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      x[count] = from.x[k];
+      y[count] = from.y[k];
+      z[count] = from.z[k];
+      nx[count] = from.nx[k];
+      ny[count] = from.ny[k];
+      nz[count] = from.nz[k];
+      places[count] = from.places[k];
+      distance_sq[count] = distance_sq[k];
+      count += distance_sq[k] < limit;
+    }
+    places.resize(count);
+    return count;
+  }
+
 private:
   std::vector<Run> runs_;
 };

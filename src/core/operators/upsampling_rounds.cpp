@@ -69,12 +69,16 @@ UpsamplingRounds::searchGaps()
 {
   const std::vector<std::uint32_t>& order = index_->order();
   const NormalsView normals = static_cast<const SoaBuffer&>(sorted_normals_).view();
+  const auto first_new = static_cast<std::uint32_t>(gaps_.size());
   gaps_.resize(size());
   parallelBlocks(size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     GapSearch::Scratch scratch;
-    search_.widest(*index_, normals, begin, end, radius_, scratch, gaps_.data());
+    std::vector<Gap> gaps(end - begin);
     for (std::size_t k = begin; k < end; ++k)
-      gaps_[k].partner = order[gaps_[k].partner];
+      gaps[k - begin] = gaps_[order[k]];
+    search_.widest(*index_, normals, begin, end, first_new, radius_, scratch, gaps.data());
+    for (std::size_t k = begin; k < end; ++k)
+      gaps_[order[k]] = gaps[k - begin];
   });
 }
 
@@ -169,13 +173,13 @@ UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
     std::vector<BilateralProjection::Query> queries(end - begin);
     std::vector<ProjectedPoint> projected(end - begin);
     for (std::size_t c = begin; c < end; ++c) {
-      const std::size_t v = index_->order()[chosen[c]], t = gaps_[chosen[c]].partner;
-      queries[c - begin] = {gaps_[chosen[c]].base, {nx_[v], ny_[v], nz_[v]}, {nx_[t], ny_[t], nz_[t]},
+      const std::size_t v = chosen[c], t = gaps_[v].partner;
+      queries[c - begin] = {gaps_[v].base, {nx_[v], ny_[v], nz_[v]}, {nx_[t], ny_[t], nz_[t]},
                             std::sqrt((x_[v] - x_[t]) * (x_[v] - x_[t]) + (y_[v] - y_[t]) * (y_[v] - y_[t]) + (z_[v] - z_[t]) * (z_[v] - z_[t]))};
     }
     projection_.project(queries, scratch, projected.data());
     for (std::size_t c = begin; c < end; ++c) {
-      const std::size_t v = index_->order()[chosen[c]], t = gaps_[chosen[c]].partner, to = first + c, inserted = to - input_size_;
+      const std::size_t v = chosen[c], t = gaps_[v].partner, to = first + c, inserted = to - input_size_;
       const ProjectedPoint& p = projected[c - begin];
       x_[to] = p.position[0];
       y_[to] = p.position[1];

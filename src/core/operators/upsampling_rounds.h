@@ -75,7 +75,7 @@ private:
 
   std::unique_ptr<PointIndex> index_; ///< over all points
   SoaBuffer sorted_normals_;
-  std::vector<Gap> gaps_;             ///< of every point, in the order of index_; `partner` is no place but a number
+  std::vector<Gap> gaps_;             ///< of every point, by its number
   float radius_ = 0;        ///< within which partners are sought; shrinks with the gaps
   float least_clearance_sq_ = 0;
   double first_priority_ = 0;
