@@ -26,7 +26,7 @@ struct Gap {
 class GapSearch {
 public:
   /** Neighbours beyond this many, the nearest ones, are left out, so that dense places cost no more than others. */
-  static constexpr std::size_t kMostNeighbors = 40;
+  static constexpr std::size_t kMostNeighbors = 31;
 
   /** Memory that a thread uses again for each query. */
   class Scratch;
