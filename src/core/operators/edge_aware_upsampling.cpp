@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/analysis/spacing.h>
+#include <pcl_gpf/core/analysis/surface_extent.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/edge_aware_upsampling.h>
 #include <pcl_gpf/core/parallel.h>
@@ -19,30 +20,7 @@ constexpr double kMostFactor = 1000.0;
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 constexpr double kRadiusInSpacings = 3.0;
 /** Share of the requested spacing down to which clearances are filled, so that estimateSpacing() of the result is the request. */
-constexpr double kClearanceOfSpacing = 0.62;
-/** Second eigenvalue of the covariance below this share of the first: all points lie on one line. */
-constexpr double kLineRatio = 1e-12;
-
-/** Ratio of the sum of the eigenvalues' products to the square of their sum: 0 for points on a line. */
-double
-flatness(PointsView points)
-{
-  double mean[3] = {}, c[3][3] = {};
-  const float* axes[3] = {points.x, points.y, points.z};
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t i = 0; i < points.size; ++i)
-      mean[a] += axes[a][i];
-    mean[a] /= static_cast<double>(points.size);
-  }
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = a; b < 3; ++b)
-      for (std::size_t i = 0; i < points.size; ++i)
-        c[a][b] += (axes[a][i] - mean[a]) * (axes[b][i] - mean[b]);
-  const double trace = c[0][0] + c[1][1] + c[2][2];
-  const double products = c[0][0] * c[1][1] - c[0][1] * c[0][1] + c[0][0] * c[2][2] - c[0][2] * c[0][2] +
-                          c[1][1] * c[2][2] - c[1][2] * c[1][2];
-  return trace > 0.0 ? products / (trace * trace) : 0.0;
-}
+constexpr double kClearanceOfSpacing = 0.775;
 
 /** Number of points that the parameters ask for; no limit when they ask for a spacing. */
 std::size_t
@@ -120,7 +98,7 @@ upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters, PointsView po
   validate(parameters);
   if (points.size < 3)
     throw UnsuitableData(std::to_string(points.size) + " points; a surface needs at least 3");
-  if (!(flatness(points) > kLineRatio))
+  if (!spansSurface(points))
     throw UnsuitableData("all points coincide or lie on one line; there is no surface to fill");
   UpsamplingRounds rounds(makePlan(parameters, points), points, unitVectors(normals));
   double reported = 0.0;
