@@ -76,7 +76,7 @@ effectiveParameters(MLSUpsamplingParameters p, const pcl::PointCloud<pcl::PointX
   estimate(p.upsampling_step, 0.5);
   estimate(p.voxel_size, 1.0);
   if (p.density == 0.0)
-    p.density = 2.0 * std::acos(-1.0) * (p.radius / spacing) * (p.radius / spacing);
+    p.density = 5.0 * std::acos(-1.0) * (p.radius / spacing) * (p.radius / spacing);
   checkWork(p, points.size(), 2.0 * static_cast<double>(extent));
   return p;
 }

@@ -13,6 +13,8 @@ filterCommand();
 Command
 normalsCommand();
 Command
+upsampleCommand();
+Command
 convertCommand();
 Command
 noiseCommand();

@@ -33,7 +33,8 @@ struct MLSUpsamplingParameters {
   double upsampling_radius = 0.0;
   /** SampleLocalPlane: distance of the points on the disc, >= 0; 0 = half a spacing. */
   double upsampling_step = 0.0;
-  /** RandomUniformDensity: points wanted within `radius`, >= 0; 0 = twice as many as a cloud of this spacing has. */
+  /** RandomUniformDensity: points wanted within `radius`, >= 0; 0 = for about twice as many as there are. Each gives way to
+   * density / 2 / neighbours points, rounded down, at least itself. */
   double density = 0.0;
   /** VoxelGridDilation: side of the voxels, >= 0; 0 = 1 spacing. */
   double voxel_size = 0.0;

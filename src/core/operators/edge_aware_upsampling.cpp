@@ -22,23 +22,6 @@ constexpr double kRadiusInSpacings = 3.0;
 /** Share of the requested spacing down to which clearances are filled, so that estimateSpacing() of the result is the request. */
 constexpr double kClearanceOfSpacing = 0.775;
 
-/** Number of points that the parameters ask for; no limit when they ask for a spacing. */
-std::size_t
-targetCount(const EdgeAwareUpsamplingParameters& p, std::size_t input)
-{
-  const double most = kMostFactor * static_cast<double>(input);
-  double target = static_cast<double>(p.target_count);
-  if (p.target_count == 0 && p.spacing > 0.0)
-    target = std::min(most, static_cast<double>(kMostPoints));
-  else if (p.target_count == 0)
-    target = std::floor((p.factor > 0.0 ? p.factor : 2.0) * static_cast<double>(input) + 0.5);
-  checkRange("target count", target, target >= static_cast<double>(input) && target <= most,
-             ("from the " + std::to_string(input) + " points of the input to 1000 times as many").c_str());
-  if (target > static_cast<double>(kMostPoints))
-    throw ExcessiveWork("the target is " + toText(target) + " points; the limit of one cloud is " + std::to_string(kMostPoints));
-  return static_cast<std::size_t>(target);
-}
-
 SoaBuffer
 unitVectors(NormalsView normals)
 {
@@ -88,6 +71,22 @@ validate(const EdgeAwareUpsamplingParameters& p)
   checkRange("edge sensitivity", p.edge_sensitivity, p.edge_sensitivity >= 0.0 && p.edge_sensitivity <= 10.0, "0 .. 10");
   if ((p.target_count > 0) + (p.factor > 0.0) + (p.spacing > 0.0) > 1)
     throw InvalidParameter("target count, factor and spacing exclude each other; more than one is set");
+}
+
+std::size_t
+targetCount(const EdgeAwareUpsamplingParameters& p, std::size_t input)
+{
+  const double most = kMostFactor * static_cast<double>(input);
+  double target = static_cast<double>(p.target_count);
+  if (p.target_count == 0 && p.spacing > 0.0)
+    target = std::min(most, static_cast<double>(kMostPoints));
+  else if (p.target_count == 0)
+    target = std::floor((p.factor > 0.0 ? p.factor : 2.0) * static_cast<double>(input) + 0.5);
+  checkRange("target count", target, target >= static_cast<double>(input) && target <= most,
+             ("from the " + std::to_string(input) + " points of the input to 1000 times as many").c_str());
+  if (target > static_cast<double>(kMostPoints))
+    throw ExcessiveWork("the target is " + toText(target) + " points; the limit of one cloud is " + std::to_string(kMostPoints));
+  return static_cast<std::size_t>(target);
 }
 
 EdgeAwareUpsamplingResult

@@ -48,6 +48,11 @@ struct EdgeAwareUpsamplingParameters {
 PCL_GPF_CORE_EXPORT void
 validate(const EdgeAwareUpsamplingParameters& parameters);
 
+/** \brief Points in all that the parameters ask for, given the size of the input; the most that are made when they ask for a
+ * spacing. \throws InvalidParameter when the target lies below the input or beyond 1000 times as much, ExcessiveWork */
+PCL_GPF_CORE_EXPORT std::size_t
+targetCount(const EdgeAwareUpsamplingParameters& parameters, std::size_t input);
+
 /** \brief The inserted points; the input is not repeated. */
 struct EdgeAwareUpsamplingResult {
   SoaBuffer points;  ///< M new positions in the frame of the input, in order of insertion
