@@ -13,6 +13,9 @@ namespace {
 constexpr double kLeastWeight = 1e-6;
 /** Points are projected together while their box is at most this many radii wide. */
 constexpr float kWidestBox = 0.25f;
+/** A side with less than this share of the other's weight has no input points here. */
+constexpr double kLeastShare = 0.3;
+/** Of the distances to two planes, for a move onto both: less, and the point lies on one of them already. */
 constexpr double kLeastRatio = 0.5;
 
 /** exp(-x) for x >= 0, relative error below 4e-7; 0 beyond 87. Not that of the system, whose last bit differs between machines.
@@ -119,7 +122,9 @@ BilateralProjection::projectOne(const Query& query, Scratch& s) const
   for (std::size_t k = 0; k < count; ++k)
     s.distance_weight_[k] = expMinus(s.distance_sq_[k] * distance_falloff_);
   const Side a = sumUp(b, query.first, s), c = sumUp(b, query.second, s);
-  const bool a_counts = a.weight > kLeastWeight, c_counts = c.weight > kLeastWeight;
+  // Near a corner a face that ends there must not go on as a sheet of new points that gave each other their normals.
+  const double least_weight = std::max(kLeastWeight, kLeastShare * std::max(a.weight, c.weight));
+  const bool a_counts = a.weight > least_weight, c_counts = c.weight > least_weight;
   if (!a_counts && !c_counts)
     return {b, query.first, 0, false};
   const bool take_a = a_counts && (!c_counts || std::abs(a.offset) <= std::abs(c.offset));

@@ -15,8 +15,11 @@ constexpr float kParallel = 0.70710678f;
 constexpr float kSteepSq = 0.5f;
 /** Normals that face apart more than this belong to the two sides of a sheet, not to an edge. */
 constexpr float kOpposite = -0.9f;
-/** Points are searched together while their box is at most this many radii wide. */
+/** Points are searched together while their box is at most this many times the reach wide. */
 constexpr float kWidestBox = 1.0f;
+/** Neighbours are sought within at least this many clearances of the gap known before, so that points across a wide one are found, and
+ * within at most so many, so that a dense edge costs no more than other places. */
+constexpr float kLeastClearances = 3.0f, kMostClearances = 5.0f;
 
 } // namespace
 
@@ -122,18 +125,25 @@ GapSearch::widestOf(std::uint32_t v, float radius, Scratch& scratch) const
 
 void
 GapSearch::widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end,
-                  std::uint32_t first_new, float radius, Scratch& scratch, Gap* gaps) const
+                  std::uint32_t first_new, float reach, float farthest, Scratch& scratch, Gap* gaps) const
 {
   const PointsView p = points.sorted();
   const auto position = [&](std::size_t k) { return std::array<float, 3>{p.x[k], p.y[k], p.z[k]}; };
-  forPatches(begin, end, kWidestBox * radius, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
-    scratch.candidates_.fill(points, normals, box, radius);
+  const auto radius = [&](std::size_t k) {
+    const float free = std::sqrt(gaps[k - begin].clearance_sq);
+    return std::min(farthest, std::clamp(reach, kLeastClearances * free, kMostClearances * free));
+  };
+  forPatches(begin, end, kWidestBox * reach, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+    float largest = 0.0f;
+    for (std::size_t k = first; k < last; ++k)
+      largest = std::max(largest, radius(k));
+    scratch.candidates_.fill(points, normals, box, largest);
     const std::vector<std::uint32_t>& near = scratch.candidates_.places;
     if (std::none_of(near.begin(), near.end(), [&](std::uint32_t j) { return points.order()[j] >= first_new; }))
       return;
     for (std::size_t k = first; k < last; ++k) {
       Gap& gap = gaps[k - begin];
-      gap = widestOf(static_cast<std::uint32_t>(k), radius, scratch);
+      gap = widestOf(static_cast<std::uint32_t>(k), radius(k), scratch);
       gap.partner = points.order()[gap.partner];
     }
   });

@@ -26,18 +26,20 @@ struct Gap {
 class GapSearch {
 public:
   /** Neighbours beyond this many, the nearest ones, are left out, so that dense places cost no more than others. */
-  static constexpr std::size_t kMostNeighbors = 31;
+  static constexpr std::size_t kMostNeighbors = 95;
 
   /** Memory that a thread uses again for each query. */
   class Scratch;
 
   GapSearch(double edge_sensitivity, bool sign_invariant);
 
-  /** The gap of greatest priority between each of the sorted points [begin, end) and its neighbours within `radius`, into
-   * gaps[k - begin]. Where no point near has a number of at least `first_new`, gaps stay as they are. */
+  /** The gap of greatest priority between each of the sorted points [begin, end) and its neighbours, into gaps[k - begin].
+   *
+   * Neighbours are sought within `reach`, or farther where the gap known before is wide, at most within `farthest`. Where no point
+   * near has a number of at least `first_new`, gaps stay as they are. */
   void
   widest(const PointIndex& points, NormalsView normals, std::size_t begin, std::size_t end, std::uint32_t first_new,
-         float radius, Scratch& scratch, Gap* gaps) const;
+         float reach, float farthest, Scratch& scratch, Gap* gaps) const;
 
 private:
   Gap

@@ -51,10 +51,13 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, PointsView points
 , nx_(unit_normals.x.begin(), unit_normals.x.end())
 , ny_(unit_normals.y.begin(), unit_normals.y.end())
 , nz_(unit_normals.z.begin(), unit_normals.z.end())
-, radius_(static_cast<float>(plan.radius))
+, gaps_(points.size)
+, reach_(static_cast<float>(plan.radius))
 {
   const float least = std::max(kLeastClearance, static_cast<float>(plan.least_clearance));
   least_clearance_sq_ = least * least;
+  for (Gap& gap : gaps_)
+    gap.clearance_sq = kUnknown; // sought as far as allowed
 }
 
 void
@@ -69,17 +72,17 @@ UpsamplingRounds::searchGaps()
 {
   const std::vector<std::uint32_t>& order = index_->order();
   const NormalsView normals = static_cast<const SoaBuffer&>(sorted_normals_).view();
-  const auto first_new = static_cast<std::uint32_t>(gaps_.size());
-  gaps_.resize(size());
+  const auto first_new = static_cast<std::uint32_t>(searched_);
   parallelBlocks(size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     GapSearch::Scratch scratch;
     std::vector<Gap> gaps(end - begin);
     for (std::size_t k = begin; k < end; ++k)
       gaps[k - begin] = gaps_[order[k]];
-    search_.widest(*index_, normals, begin, end, first_new, radius_, scratch, gaps.data());
+    search_.widest(*index_, normals, begin, end, first_new, reach_, static_cast<float>(plan_.radius), scratch, gaps.data());
     for (std::size_t k = begin; k < end; ++k)
       gaps_[order[k]] = gaps[k - begin];
   });
+  searched_ = size();
 }
 
 bool
@@ -164,6 +167,9 @@ void
 UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
 {
   const std::size_t first = size(), count = chosen.size();
+  gaps_.resize(first + count);
+  for (std::size_t c = 0; c < count; ++c)
+    gaps_[first + c].clearance_sq = gaps_[chosen[c]].clearance_sq; // what was free around the new point
   for (std::vector<float>* values : {&x_, &y_, &z_, &nx_, &ny_, &nz_})
     values->resize(first + count);
   for (std::vector<std::uint32_t>* values : {&parents_, &first_base_, &second_base_})
@@ -225,7 +231,7 @@ UpsamplingRounds::step()
     first_priority_ = static_cast<double>(least);
   last_priority_ = least;
   insert(chosen);
-  radius_ = std::min(radius_, kReachInClearances * std::sqrt(least));
+  reach_ = std::min(reach_, kReachInClearances * std::sqrt(least));
   return true;
 }
 

@@ -76,7 +76,8 @@ private:
   std::unique_ptr<PointIndex> index_; ///< over all points
   SoaBuffer sorted_normals_;
   std::vector<Gap> gaps_;             ///< of every point, by its number
-  float radius_ = 0;        ///< within which partners are sought; shrinks with the gaps
+  std::size_t searched_ = 0; ///< points that have been searched
+  float reach_ = 0;          ///< within which partners are sought where gaps are not wide; shrinks with them
   float least_clearance_sq_ = 0;
   double first_priority_ = 0;
   float last_priority_ = 0;
