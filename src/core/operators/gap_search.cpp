@@ -21,6 +21,13 @@ constexpr float kWidestBox = 1.0f;
  * within at most so many, so that a dense edge costs no more than other places. */
 constexpr float kLeastClearances = 3.0f, kMostClearances = 5.0f;
 
+/** Each pair is looked at from one end only; every point has about half of its pairs. */
+inline bool
+isMine(std::uint32_t v, std::uint32_t t)
+{
+  return (((v ^ t) & 1u) != 0) == (v < t);
+}
+
 } // namespace
 
 GapSearch::GapSearch(double edge_sensitivity, bool sign_invariant)
@@ -80,19 +87,23 @@ GapSearch::Scratch::collect(std::size_t self, float radius)
 }
 
 Gap
-GapSearch::widestOf(std::uint32_t v, float radius, Scratch& scratch) const
+GapSearch::widestOf(std::uint32_t v, const std::vector<std::uint32_t>& order, float radius, Scratch& scratch) const
 {
   const NearbyPoints& from = scratch.candidates_;
   const auto self = static_cast<std::size_t>(std::lower_bound(from.places.begin(), from.places.end(), v) - from.places.begin());
   const std::size_t count = scratch.collect(self, radius);
   const auto& s = scratch.near_;
-  const std::size_t padded = (count + kGroup - 1) / kGroup * kGroup;
   alignas(64) float bx[Scratch::kSize] = {}, by[Scratch::kSize] = {}, bz[Scratch::kSize] = {}, least_sq[Scratch::kSize];
+  std::uint32_t partner[Scratch::kSize];
+  std::size_t partners = 0;
   for (std::size_t t = 0; t < count; ++t) {
-    bx[t] = 0.5f * s.x[t];
-    by[t] = 0.5f * s.y[t];
-    bz[t] = 0.5f * s.z[t];
+    bx[partners] = 0.5f * s.x[t];
+    by[partners] = 0.5f * s.y[t];
+    bz[partners] = 0.5f * s.z[t];
+    partner[partners] = static_cast<std::uint32_t>(t);
+    partners += isMine(order[v], order[s.place[t]]);
   }
+  const std::size_t padded = (partners + kGroup - 1) / kGroup * kGroup;
   std::fill_n(least_sq, padded, 1e30f);
   for (std::size_t k = 0; k <= count; ++k) {
     const float x = s.x[k], y = s.y[k], z = s.z[k], nx = s.nx[k], ny = s.ny[k], nz = s.nz[k];
@@ -105,19 +116,20 @@ GapSearch::widestOf(std::uint32_t v, float radius, Scratch& scratch) const
   }
   Gap gap;
   const float nx = s.nx[count], ny = s.ny[count], nz = s.nz[count];
-  for (std::size_t t = 0; t < count; ++t) {
+  for (std::size_t b = 0; b < partners; ++b) {
+    const std::size_t t = partner[b];
     const float cosine = nx * s.nx[t] + ny * s.ny[t] + nz * s.nz[t];
     const float along = nx * s.x[t] + ny * s.y[t] + nz * s.z[t];
     const float distance_sq = s.x[t] * s.x[t] + s.y[t] * s.y[t] + s.z[t] * s.z[t];
     const float aligned = std::abs(cosine);
     if ((aligned > kParallel && along * along > kSteepSq * distance_sq) || (!sign_invariant_ && cosine < kOpposite))
       continue;
-    const float priority = least_sq[t] * edgeFactor(sign_invariant_ ? aligned : cosine);
+    const float priority = least_sq[b] * edgeFactor(sign_invariant_ ? aligned : cosine);
     if (priority > gap.priority) {
-      gap.clearance_sq = least_sq[t];
+      gap.clearance_sq = least_sq[b];
       gap.priority = priority;
-      gap.base = {from.x[self] + bx[t], from.y[self] + by[t], from.z[self] + bz[t]};
-      gap.partner = s.place[t];
+      gap.base = {from.x[self] + bx[b], from.y[self] + by[b], from.z[self] + bz[b]};
+      gap.partner = order[s.place[t]];
     }
   }
   return gap;
@@ -143,8 +155,7 @@ GapSearch::widest(const PointIndex& points, NormalsView normals, std::size_t beg
       return;
     for (std::size_t k = first; k < last; ++k) {
       Gap& gap = gaps[k - begin];
-      gap = widestOf(static_cast<std::uint32_t>(k), radius(k), scratch);
-      gap.partner = points.order()[gap.partner];
+      gap = widestOf(static_cast<std::uint32_t>(k), points.order(), radius(k), scratch);
     }
   });
 }

@@ -43,7 +43,7 @@ public:
 
 private:
   Gap
-  widestOf(std::uint32_t v, float radius, Scratch& scratch) const;
+  widestOf(std::uint32_t v, const std::vector<std::uint32_t>& order, float radius, Scratch& scratch) const;
   float
   edgeFactor(float cosine) const;
 
