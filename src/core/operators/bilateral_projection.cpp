@@ -16,7 +16,7 @@ constexpr float kWidestBox = 0.25f;
 /** A side with less than this share of the other's weight has no input points here. */
 constexpr double kLeastShare = 0.3;
 /** Of the distances to two planes, for a move onto both: less, and the point lies on one of them already. */
-constexpr double kLeastRatio = 0.5;
+constexpr double kLeastRatio = 0.4;
 
 /** exp(-x) for x >= 0, relative error below 4e-7; 0 beyond 87. Not that of the system, whose last bit differs between machines.
  * Without branches, so that the compiler makes wide code of a loop over it. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "upsampling_rounds.h"
 
+#include "rival_gaps.h"
+
 #include <pcl_gpf/core/parallel.h>
 
 #include <algorithm>
@@ -19,7 +21,7 @@ constexpr float kLeastClearance = 1e-6f;
 /** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
 constexpr float kReachInClearances = 3.6f;
 /** Share of the gaps, those of least priority, that take no part in a round: so the widest are filled first. */
-constexpr double kShareLeft = 0.3;
+constexpr double kShareLeft = 0.5;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 SoaBuffer
@@ -107,60 +109,13 @@ UpsamplingRounds::leastPriority() const
 }
 
 std::vector<std::uint32_t>
-UpsamplingRounds::chooseBases(float least)
+UpsamplingRounds::chooseBases(float least) const
 {
   std::vector<std::uint32_t> rivals;
   for (std::size_t i = 0; i < gaps_.size(); ++i)
     if (gaps_[i].priority >= least && counts(gaps_[i]))
       rivals.push_back(static_cast<std::uint32_t>(i));
-  SoaBuffer bases(rivals.size());
-  for (std::size_t r = 0; r < rivals.size(); ++r) {
-    bases.x[r] = gaps_[rivals[r]].base[0];
-    bases.y[r] = gaps_[rivals[r]].base[1];
-    bases.z[r] = gaps_[rivals[r]].base[2];
-  }
-  const PointIndex near(static_cast<const SoaBuffer&>(bases).view(), static_cast<unsigned>(plan_.threads));
-  const PointsView b = near.sorted();
-  std::vector<std::uint8_t> wins(rivals.size(), 0);
-  std::vector<float> clearance_sq(rivals.size()), priority(rivals.size());
-  for (std::size_t k = 0; k < rivals.size(); ++k) {
-    clearance_sq[k] = gaps_[rivals[near.order()[k]]].clearance_sq;
-    priority[k] = gaps_[rivals[near.order()[k]]].priority;
-  }
-  // Calls f(k, j) for all pairs of bases closer than the clearance of the k-th, as long as f returns true.
-  const auto forPairs = [&](const auto& f) {
-    parallelBlocks(rivals.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
-      std::vector<Run> runs;
-      const auto position = [&b](std::size_t k) { return std::array<float, 3>{b.x[k], b.y[k], b.z[k]}; };
-      const float reach = std::sqrt(*std::max_element(clearance_sq.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                      clearance_sq.begin() + static_cast<std::ptrdiff_t>(end)));
-      forPatches(begin, end, 2.0f * reach, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
-        runs.clear();
-        near.tree().collectRuns(box, reach, runs);
-        for (std::size_t k = first; k < last; ++k)
-          for (const Run run : runs) {
-            std::uint32_t j = run.begin;
-            for (; j < run.end; ++j) {
-              const float dx = b.x[j] - b.x[k], dy = b.y[j] - b.y[k], dz = b.z[j] - b.z[k];
-              if (dx * dx + dy * dy + dz * dz < clearance_sq[k] && j != k && !f(k, j))
-                break;
-            }
-            if (j < run.end)
-              break;
-          }
-      });
-    });
-  };
-  std::fill(wins.begin(), wins.end(), std::uint8_t{1});
-  forPairs([&](std::size_t k, std::uint32_t j) {
-    wins[k] = priority[j] < priority[k] || (priority[j] == priority[k] && rivals[near.order()[j]] > rivals[near.order()[k]]);
-    return wins[k] != 0;
-  });
-  std::vector<std::uint32_t> chosen;
-  for (std::size_t k = 0; k < rivals.size(); ++k)
-    if (wins[k])
-      chosen.push_back(rivals[near.order()[k]]);
-  return chosen;
+  return bestWithinClearance(gaps_, rivals, plan_.threads);
 }
 
 void

@@ -56,7 +56,7 @@ private:
   float
   leastPriority() const;
   std::vector<std::uint32_t>
-  chooseBases(float least);
+  chooseBases(float least) const;
   /** Leaves the `count` of greatest priority, in the order they have. */
   void
   keepBest(std::vector<std::uint32_t>& chosen, std::size_t count) const;
