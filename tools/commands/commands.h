@@ -15,6 +15,8 @@ normalsCommand();
 Command
 orientCommand();
 Command
+upsampleCommand();
+Command
 convertCommand();
 Command
 noiseCommand();

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bilateral_projection.h"
+#include "gap_search.h"
+
+#include <pcl_gpf/core/operators/edge_aware_upsampling.h>
+#include <pcl_gpf/core/point_index.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pcl_gpf {
+
+/** The parameters with everything that had to be estimated. */
+struct UpsamplingPlan {
+  std::size_t target = 0;     ///< points in all
+  double radius = 0;          ///< R
+  double least_clearance = 0; ///< gaps below are left; 0 = only the target counts
+  double angle = 0;           ///< radians
+  double edge_sensitivity = 0;
+  bool sign_invariant = true;
+  std::size_t threads = 1;
+};
+
+/** Edge-aware insertion in rounds.
+ *
+ * Every point keeps its widest gap. A round takes the upper half of all gaps by priority, inserts those that no better one
+ * comes nearer than their own clearance, and searches again only where it inserted. A gap that is not searched again can only have
+ * become smaller, so its old priority is an upper bound, and nothing of the upper half is missed.
+ */
+class UpsamplingRounds {
+public:
+  UpsamplingRounds(const UpsamplingPlan& plan, PointsView points, SoaBuffer unit_normals);
+
+  /** \return false when the target is reached or nothing is left to fill */
+  bool
+  step();
+  double
+  fractionDone() const;
+  EdgeAwareUpsamplingResult
+  result() const;
+
+private:
+  std::size_t size() const { return x_.size(); }
+  VectorsView positions() const { return {x_.data(), y_.data(), z_.data(), size()}; }
+
+  void
+  indexPoints();
+  void
+  searchGaps();
+  bool
+  counts(const Gap& gap) const;
+  float
+  leastPriority() const;
+  std::vector<std::uint32_t>
+  chooseBases(float least) const;
+  /** Leaves the `count` of greatest priority, in the order they have. */
+  void
+  keepBest(std::vector<std::uint32_t>& chosen, std::size_t count) const;
+  void
+  insert(const std::vector<std::uint32_t>& chosen);
+
+  UpsamplingPlan plan_;
+  std::size_t input_size_;
+  std::unique_ptr<PointIndex> input_;
+  SoaBuffer input_normals_; ///< in the order of input_
+  BilateralProjection projection_;
+  GapSearch search_;
+
+  std::vector<float> x_, y_, z_, nx_, ny_, nz_; ///< input, then inserted points
+  std::vector<std::uint32_t> parents_, first_base_, second_base_; ///< of inserted points
+
+  std::unique_ptr<PointIndex> index_; ///< over all points
+  SoaBuffer sorted_normals_;
+  std::vector<Gap> gaps_;             ///< of every point, by its number
+  std::size_t searched_ = 0; ///< points that have been searched
+  float reach_ = 0;          ///< within which partners are sought where gaps are not wide; shrinks with them
+  float least_clearance_sq_ = 0;
+  double first_priority_ = 0;
+  float last_priority_ = 0;
+  std::size_t rounds_ = 0;
+};
+
+} // namespace pcl_gpf
