@@ -15,6 +15,7 @@
 
 #include "bilateral_normals-inl.h"
 #include "gaussian_sums-inl.h"
+#include "implicit_sums-inl.h"
 #include "projection-inl.h"
 #include "repulsion-inl.h"
 
@@ -92,6 +93,20 @@ bilateralNormals(const Candidates& candidates, const BilateralNormals& a, std::s
     streamPairs<OrientedNormalSum, float>(candidates, a, begin, end);
 }
 
+template <class D>
+using PlainImplicitSum = ImplicitSum<D, false>;
+template <class D>
+using RobustImplicitSum = ImplicitSum<D, true>;
+
+static void
+implicitSums(const Candidates& candidates, const ImplicitSums& a, std::size_t begin, std::size_t end)
+{
+  if (a.robust)
+    streamPairs<RobustImplicitSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<PlainImplicitSum, float>(candidates, a, begin, end);
+}
+
 static void
 moments(const Candidates& candidates, const Moments& a, std::size_t begin, std::size_t end)
 {
@@ -99,7 +114,8 @@ moments(const Candidates& candidates, const Moments& a, std::size_t begin, std::
 }
 
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
-                              repulsion<float>,    repulsion<double>,    bilateralNormals,  moments};
+                              repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
+                              moments};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

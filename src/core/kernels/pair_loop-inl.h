@@ -66,7 +66,8 @@ public:
         max_[axis] = axes[axis][q] > max_[axis] ? axes[axis][q] : max_[axis];
       }
     }
-    Real radius_sq = radius.radius_sq;
+    inverse_sq_ = radius.inverse_sq_per_datum;
+    Real radius_sq = inverse_sq_ ? Real(1) : radius.radius_sq;
     if (radius.per_query)
       for (std::size_t q = first; q < end; ++q)
         radius_sq = q == first || radius.per_query[q] > radius_sq ? radius.per_query[q] : radius_sq;
@@ -85,7 +86,9 @@ public:
       const auto gap_x = gap(d, hn::LoadU(d, data.x + j), 0);
       const auto gap_y = gap(d, hn::LoadU(d, data.y + j), 1);
       const auto gap_z = gap(d, hn::LoadU(d, data.z + j), 2);
-      const auto distance_sq = hn::Add(hn::Add(hn::Mul(gap_x, gap_x), hn::Mul(gap_y, gap_y)), hn::Mul(gap_z, gap_z));
+      auto distance_sq = hn::Add(hn::Add(hn::Mul(gap_x, gap_x), hn::Mul(gap_y, gap_y)), hn::Mul(gap_z, gap_z));
+      if (inverse_sq_) // in units of the datum's own radius
+        distance_sq = hn::Mul(distance_sq, hn::LoadU(d, inverse_sq_ + j));
       auto near = hn::RebindMask(di, hn::Lt(distance_sq, radius_sq));
       if (j + lanes > end)
         near = hn::And(near, hn::FirstN(di, end - j));
@@ -103,6 +106,7 @@ private:
   }
 
   Real min_[3], max_[3], radius_sq_;
+  const Real* inverse_sq_;
 };
 
 /** Streams the candidates of blocks [begin, end) through an accumulator: Sum(arguments, d, first query), pair(datum), store(). The
