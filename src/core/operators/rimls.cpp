@@ -155,7 +155,7 @@ RimlsSurface::supportRadii() const
 }
 
 void
-RimlsSurface::evaluate(PointsView positions, const RimlsValues& values) const
+RimlsSurface::evaluate(PointsView positions, const ImplicitValues& values) const
 {
   implementation_->fitAll(positions, {}, [&](const RimlsFit& fit, std::size_t position, std::size_t i) {
     if (values.value)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/implicit_function.h>
 #include <pcl_gpf/core/iteration.h>
 #include <pcl_gpf/core/neighbor_lists.h>
 #include <pcl_gpf/core/operators/rimls_parameters.h>
@@ -14,13 +15,6 @@
 #include <vector>
 
 namespace pcl_gpf {
-
-/** \brief What RimlsSurface::evaluate() writes, one entry a position; arrays may be null where a value is not wanted. */
-struct RimlsValues {
-  float* value = nullptr;         ///< f, a signed distance near the surface, positive on the side of the normals; NaN outside the domain
-  MutableVectorsView gradient;    ///< grad f, length about 1; 0 outside the domain
-  std::uint8_t* inside = nullptr; ///< 1 inside the domain
-};
 
 /** \brief What became of a projected position. */
 enum class RimlsState : std::uint8_t {
@@ -68,7 +62,7 @@ public:
   /** \brief f, grad f and the domain at any positions. Cost grows when consecutive positions are far from each other.
    * \throws ExcessiveWork if the support radius holds too many points */
   void
-  evaluate(PointsView positions, const RimlsValues& values) const;
+  evaluate(PointsView positions, const ImplicitValues& values) const;
 
   /** \brief Moves positions onto the surface: x <- x - f grad f / |grad f|, at most h / 2 a step, until |f| <= accuracy * spacing.
    *
