@@ -47,21 +47,26 @@ normalise(MutableVectorsView vectors, std::size_t i)
   return true;
 }
 
+SoaBuffer
+gradients(const SoaBuffer& vertices, const ImplicitFunction& function)
+{
+  SoaBuffer result(vertices.size());
+  for (std::size_t begin = 0; begin < vertices.size(); begin += kGradientsPerBatch) {
+    ImplicitValues out;
+    const std::size_t size = std::min(kGradientsPerBatch, vertices.size() - begin);
+    out.gradient = {result.x.data() + begin, result.y.data() + begin, result.z.data() + begin, size};
+    function({vertices.x.data() + begin, vertices.y.data() + begin, vertices.z.data() + begin, size}, out);
+  }
+  return result;
+}
+
 } // namespace
 
 void
-setNormalsFromGradient(SurfaceMesh& mesh, const ImplicitFunction& function)
+completeNormals(SurfaceMesh& mesh)
 {
-  const std::size_t count = mesh.vertexCount();
-  mesh.normals = SoaBuffer(count);
-  for (std::size_t begin = 0; begin < count; begin += kGradientsPerBatch) {
-    ImplicitValues out;
-    const std::size_t size = std::min(kGradientsPerBatch, count - begin);
-    out.gradient = {mesh.normals.x.data() + begin, mesh.normals.y.data() + begin, mesh.normals.z.data() + begin, size};
-    function({mesh.vertices.x.data() + begin, mesh.vertices.y.data() + begin, mesh.vertices.z.data() + begin, size}, out);
-  }
   SoaBuffer instead;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
     if (normalise(mesh.normals.view(), i))
       continue;
     if (instead.size() == 0)
@@ -81,7 +86,10 @@ extractSurface(const MarchingCubesParameters& parameters, const ImplicitFunction
   SurfaceFollower follower(parameters, function);
   follower.follow(seeds, progress);
   SurfaceMesh mesh = Polygonizer(follower, resolveThreads(parameters.number_of_threads)).run();
-  setNormalsFromGradient(mesh, function);
+  if (parameters.normals) {
+    mesh.normals = gradients(mesh.vertices, function);
+    completeNormals(mesh);
+  }
   if (statistics)
     *statistics = follower.statistics();
   if (progress && !progress(1.0))

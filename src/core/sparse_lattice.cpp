@@ -114,14 +114,4 @@ CornerFinder::corners(LatticePoint cell)
   return result;
 }
 
-std::array<float, 8>
-CornerFinder::values(LatticePoint cell)
-{
-  std::array<float, 8> result;
-  const std::array<Corner, 8> found = corners(cell);
-  for (std::size_t c = 0; c < 8; ++c)
-    result[c] = lattice_.brick(found[c].brick).values[found[c].key & 63u];
-  return result;
-}
-
 } // namespace pcl_gpf

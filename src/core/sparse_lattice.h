@@ -72,9 +72,6 @@ public:
   /** \brief The 8 corners of the cell, in the order of CellPolygons. */
   std::array<Corner, 8>
   corners(LatticePoint cell);
-  /** \brief Their values. All bricks must exist. */
-  std::array<float, 8>
-  values(LatticePoint cell);
 
 private:
   std::uint32_t

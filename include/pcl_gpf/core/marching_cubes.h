@@ -22,6 +22,9 @@ struct MarchingCubesParameters {
   /** Bytes that lattice and mesh may take, >= 1; passing them ends the work with ExcessiveWork. */
   std::size_t memory_limit = std::size_t{2} << 30;
 
+  /** Evaluate the gradient at the vertices for their normals; false leaves SurfaceMesh::normals empty. */
+  bool normals = true;
+
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
 };
@@ -54,9 +57,9 @@ extractSurface(const MarchingCubesParameters& parameters,
                const ProgressCallback& progress = {},
                MarchingCubesStatistics* statistics = nullptr);
 
-/** \brief Sets every vertex normal to the function's normalised gradient; to the mean normal of its faces where there is none. */
+/** \brief Makes vertex normals unit vectors; those without a direction become the mean normal of their faces. */
 PCL_GPF_CORE_EXPORT void
-setNormalsFromGradient(SurfaceMesh& mesh, const ImplicitFunction& function);
+completeNormals(SurfaceMesh& mesh);
 
 /** \brief Bytes that extractSurface() takes at most for a surface of this area, roughly. */
 PCL_GPF_CORE_EXPORT double
