@@ -8,6 +8,7 @@
 
 #include <pcl_gpf/filters/bilateral_normal_filter.h>
 #include <pcl_gpf/filters/gpf.h>
+#include <pcl_gpf/filters/rimls_projection.h>
 
 #include <gtest/gtest.h>
 
@@ -37,9 +38,18 @@ struct ContractOf<BilateralNormalFilter<PointT>> {
   static void setInvalidParameter(BilateralNormalFilter<PointT>& filter) { filter.setRadius(-1); }
 };
 
+template <typename PointT>
+struct ContractOf<RIMLSProjection<PointT>> {
+  using Point = PointT;
+  static constexpr const char* kName = "RIMLSProjection";
+  static constexpr bool kKeepsNonFinite = false;
+  static void prepare(RIMLSProjection<PointT>& filter) { filter.setSupportRadius(0.3); }
+  static void setInvalidParameter(RIMLSProjection<PointT>& filter) { filter.setSupportRadius(-1); }
+};
+
 #ifdef PCL_GPF_TEST_CUSTOM_POINT
 /** \brief Every filter with a point type of the user's own; the place to add a new filter. */
-using ContractFilters = ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>>;
+using ContractFilters = ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>, RIMLSProjection<ScannerPoint>>;
 #else
 /** \brief Every filter with every compiled point type; the place to add a new filter. */
 using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
@@ -47,7 +57,10 @@ using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
                                          GPF<pcl::PointXYZINormal>,
                                          BilateralNormalFilter<pcl::PointNormal>,
                                          BilateralNormalFilter<pcl::PointXYZRGBNormal>,
-                                         BilateralNormalFilter<pcl::PointXYZINormal>>;
+                                         BilateralNormalFilter<pcl::PointXYZINormal>,
+                                         RIMLSProjection<pcl::PointNormal>,
+                                         RIMLSProjection<pcl::PointXYZRGBNormal>,
+                                         RIMLSProjection<pcl::PointXYZINormal>>;
 #endif
 
 /** \brief A filter made ready for clouds of the size of the unit cube, and clouds for it. */

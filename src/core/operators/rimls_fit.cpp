@@ -10,6 +10,8 @@ namespace {
 
 /** Squared change of the gradient below which another fit is not worth its time (MeshLab's). */
 constexpr float kSettled = 1e-3f;
+/** A sum of weights below this has lost its digits, and its inverse may overflow. */
+constexpr float kLeastWeight = 1e-25f;
 
 } // namespace
 
@@ -78,7 +80,7 @@ void
 RimlsFit::closePlainFit(std::size_t count)
 {
   for (std::size_t i = 0; i < count; ++i) {
-    inside_[i] = weight_[i] > 0.0f && count_[i] >= static_cast<float>(parameters_.minimum_samples) && close_count_[i] > 0.0f;
+    inside_[i] = weight_[i] > kLeastWeight && count_[i] >= static_cast<float>(parameters_.minimum_samples) && close_count_[i] > 0.0f;
     done_[i] = !inside_[i];
     plain_weight_[i] = weight_[i];
     value_[i] = gradient_.x[i] = gradient_.y[i] = gradient_.z[i] = 0.0f;
@@ -92,7 +94,7 @@ RimlsFit::closeFit(std::size_t begin, std::size_t end)
   for (std::size_t i = begin; i < end; ++i) {
     if (done_[i])
       continue;
-    if (!(weight_[i] > 0.0f)) { // every robust weight underflowed: the fit before is the last that means anything
+    if (!(weight_[i] > kLeastWeight)) { // no datum resembles the fit before: it is the last that means anything
       done_[i] = true;
       continue;
     }

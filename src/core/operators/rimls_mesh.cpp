@@ -18,8 +18,8 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kFewestPoints = 4;
-/** r_i of an even cloud in spacings. */
-constexpr double kRadiusInSpacings = 1.128;
+/** Least local radius: with it a cell on a convex corner, which reaches a diagonal beyond the surface, is still in the domain. */
+constexpr double kLeastRadiusInCells = 2.0;
 /** Shares of the work, for the progress. */
 constexpr double kSeedsDone = 0.15, kCellsDone = 0.8;
 
@@ -170,9 +170,7 @@ meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView 
   refuseTooMuchMemory(done.expected_memory, static_cast<double>(parameters.memory_limit), side / done.cell_size);
 
   RimlsParameters rimls = parameters.rimls;
-  rimls.minimum_radius = std::max(rimls.minimum_radius, done.cell_size);
-  // A cell on a convex corner reaches one diagonal beyond the surface.
-  rimls.domain += std::sqrt(3.0) * done.cell_size / std::max(rimls.minimum_radius, kRadiusInSpacings * done.spacing);
+  rimls.minimum_radius = std::max(rimls.minimum_radius, kLeastRadiusInCells * done.cell_size);
   rimls.number_of_threads = parameters.number_of_threads;
   const SoaBuffer sorted_normals = [&] {
     SoaBuffer sorted(points.size);

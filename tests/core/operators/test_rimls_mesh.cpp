@@ -52,12 +52,16 @@ turnedFaces(const SurfaceMesh& mesh)
 
 TEST(RimlsMesh, isClosedAndOfTheRightTopologyWithoutNoise)
 {
-  const LocalCloud ball = toLocalCloud(turned(sphere(8000))), ring = toLocalCloud(turned(torus(8000))), box = toLocalCloud(turned(block(8000)));
-  for (const unsigned resolution : {20u, 60u, 150u}) {
-    const std::string at = " at " + std::to_string(resolution);
-    expectClosed(meshOf(ball, {}, resolution), 2, "sphere" + at);
-    expectClosed(meshOf(ring, {}, resolution), 0, "torus" + at);
-    expectClosed(meshOf(box, {}, resolution), 2, "block" + at);
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const LocalCloud ball = toLocalCloud(turned(sphere(8000, 0, seed))), ring = toLocalCloud(turned(torus(8000, 0, seed))),
+                     box = toLocalCloud(turned(block(8000, 0, seed))), straight_box = toLocalCloud(block(2000, 0, seed));
+    for (const unsigned resolution : {25u, 60u, 120u}) {
+      const std::string at = " of seed " + std::to_string(seed) + " at " + std::to_string(resolution);
+      expectClosed(meshOf(ball, {}, resolution), 2, "sphere" + at);
+      expectClosed(meshOf(ring, {}, resolution), 0, "torus" + at);
+      expectClosed(meshOf(box, {}, resolution), 2, "block" + at);
+      expectClosed(meshOf(straight_box, {}, resolution), 2, "straight block" + at);
+    }
   }
 }
 
@@ -66,15 +70,14 @@ TEST(RimlsMesh, verticesLieOnTheSurfaceAndFacesLookAlongNormals)
   const LocalCloud cloud = toLocalCloud(turned(sphere(10000)));
   RimlsMeshStatistics statistics;
   const SurfaceMesh mesh = meshOf(cloud, {}, 100, &statistics);
-  BoundingBox box;
-  for (const Vector3& p : cloud.v)
-    box.add(p[0], p[1], p[2]);
   const double radius = 0.5 / std::sqrt(3.0); // the box diagonal is 1
   for (std::size_t i = 0; i < mesh.vertexCount(); ++i)
     EXPECT_NEAR(distance({mesh.vertices.x[i], mesh.vertices.y[i], mesh.vertices.z[i]}, {0, 0, 0}), radius, 0.02 * radius);
   EXPECT_LT(turnedFaces(mesh), 1e-4);
   EXPECT_LT(turnedFaces(meshOf(toLocalCloud(turned(block(10000))), {}, 100)), 1e-3);
-  const RimlsSurface surface({}, cloud.points.view(), cloud.normals.view());
+  RimlsParameters rimls = RimlsMeshParameters().rimls;
+  rimls.minimum_radius = 2 * statistics.cell_size; // as the mesher sets it
+  const RimlsSurface surface(rimls, cloud.points.view(), cloud.normals.view());
   std::vector<float> value(mesh.vertexCount());
   surface.evaluate(mesh.vertices.view(), {value.data(), {}, nullptr});
   for (const float f : value)

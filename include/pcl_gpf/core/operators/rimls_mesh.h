@@ -14,9 +14,9 @@ namespace pcl_gpf {
 
 /** \brief Parameters of the RIMLS surface mesh. Lengths are in the unit of the points they are used with. */
 struct RimlsMeshParameters {
-  /** The implicit surface. Local radii below a cell are raised to it, for there is nothing to resolve below, and the domain is widened by
-   * the diagonal of a cell. */
-  RimlsParameters rimls;
+  /** The implicit surface. Local radii below two cells are raised to that, for there is nothing to resolve below. Default scale 6, not 4:
+   * at a corner of unevenly sampled faces a small support may see one face only and go on beyond it. */
+  RimlsParameters rimls = defaultRimls();
 
   /** Cells along the longest side of the box of the points (outliers left out), 2 .. 65536. Time and
    * memory grow with its square. */
@@ -36,6 +36,15 @@ struct RimlsMeshParameters {
 
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
+
+private:
+  static RimlsParameters
+  defaultRimls()
+  {
+    RimlsParameters rimls;
+    rimls.scale = 6.0;
+    return rimls;
+  }
 };
 
 /** \brief Checks every range. \throws InvalidParameter */
