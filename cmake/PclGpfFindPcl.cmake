@@ -26,4 +26,5 @@ endfunction()
 
 if(PCL_FOUND)
   pcl_gpf_find_pcl_library(features)
+  pcl_gpf_find_pcl_library(surface)
 endif()
