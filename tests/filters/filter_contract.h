@@ -8,6 +8,7 @@
 
 #include <pcl_gpf/filters/bilateral_normal_filter.h>
 #include <pcl_gpf/filters/gpf.h>
+#include <pcl_gpf/filters/normal_orientation.h>
 #include <pcl_gpf/filters/rimls_projection.h>
 
 #include <gtest/gtest.h>
@@ -47,9 +48,19 @@ struct ContractOf<RIMLSProjection<PointT>> {
   static void setInvalidParameter(RIMLSProjection<PointT>& filter) { filter.setSupportRadius(-1); }
 };
 
+template <typename PointT>
+struct ContractOf<NormalOrientation<PointT>> {
+  using Point = PointT;
+  static constexpr const char* kName = "NormalOrientation";
+  static constexpr bool kKeepsNonFinite = true;
+  static void prepare(NormalOrientation<PointT>& filter) { filter.setNeighbors(10); }
+  static void setInvalidParameter(NormalOrientation<PointT>& filter) { filter.setNeighbors(2); }
+};
+
 #ifdef PCL_GPF_TEST_CUSTOM_POINT
 /** \brief Every filter with a point type of the user's own; the place to add a new filter. */
-using ContractFilters = ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>, RIMLSProjection<ScannerPoint>>;
+using ContractFilters = ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>, NormalOrientation<ScannerPoint>,
+                                         RIMLSProjection<ScannerPoint>>;
 #else
 /** \brief Every filter with every compiled point type; the place to add a new filter. */
 using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
@@ -58,6 +69,9 @@ using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
                                          BilateralNormalFilter<pcl::PointNormal>,
                                          BilateralNormalFilter<pcl::PointXYZRGBNormal>,
                                          BilateralNormalFilter<pcl::PointXYZINormal>,
+                                         NormalOrientation<pcl::PointNormal>,
+                                         NormalOrientation<pcl::PointXYZRGBNormal>,
+                                         NormalOrientation<pcl::PointXYZINormal>,
                                          RIMLSProjection<pcl::PointNormal>,
                                          RIMLSProjection<pcl::PointXYZRGBNormal>,
                                          RIMLSProjection<pcl::PointXYZINormal>>;

@@ -25,7 +25,7 @@ expectUsageError(const std::vector<std::string>& words, const std::vector<std::s
 
 TEST(ToolOptions, HelpGoesToStandardOutputAndBeginsWithThreeExamples)
 {
-  for (const char* command : {"info", "filter", "normals", "convert", "compare", "noise", "render"}) {
+  for (const char* command : {"info", "filter", "normals", "orient", "convert", "compare", "noise", "render"}) {
     const ToolRun run = runTool({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_EQ(run.err, "");

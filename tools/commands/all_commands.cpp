@@ -8,8 +8,8 @@ const std::vector<Command>&
 allCommands()
 {
   static const std::vector<Command> commands = [] {
-    std::vector<Command> list{infoCommand(),    filterCommand(), normalsCommand(), convertCommand(),
-                              compareCommand(), noiseCommand(),  renderCommand()};
+    std::vector<Command> list{infoCommand(),    filterCommand(),  normalsCommand(), orientCommand(),
+                              convertCommand(), compareCommand(), noiseCommand(),   renderCommand()};
     for (Command& command : list)
       command.options = command.options + std::vector<OptionSpec>{quietOption(), helpOption()};
     return list;

@@ -13,6 +13,8 @@ filterCommand();
 Command
 normalsCommand();
 Command
+orientCommand();
+Command
 convertCommand();
 Command
 noiseCommand();

@@ -6,6 +6,7 @@
 #include "../check_range.h"
 #include "signed_forest.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -16,8 +17,30 @@ namespace {
 constexpr unsigned kMajoritySweeps = 5;
 /** A closed surface has no vector area; a hemisphere has half of its area, a cube without one face a fifth. */
 constexpr double kClosedVectorArea = 0.25;
+/** A point whose neighbours fill a ball this many times as large (squared radius) as those of most of its neighbours is
+ * an outlier. */
+constexpr float kOutlierRatio = 25.0f;
 /** Less than this share of the facing area tells nothing: the far and the near side of a closed part cancel. */
 constexpr double kClearMajority = 0.25;
+
+/** Area that each point stands for, in any unit; 0 for outliers, which are not of the surface. */
+std::vector<float>
+pointAreas(const VoteGraph& graph)
+{
+  const std::vector<float>& radius_sq = graph.radius_sq;
+  std::vector<float> area = radius_sq;
+  const auto middle = area.begin() + static_cast<std::ptrdiff_t>(area.size() / 2);
+  std::nth_element(area.begin(), middle, area.end());
+  const float least = *middle > 0.0f ? 1e-3f * *middle : 1.0f; // coincident points fill no area, but count
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    const std::size_t begin = graph.rows.offsets[i], end = graph.rows.offsets[i + 1];
+    std::size_t denser = 0;
+    for (std::size_t e = begin; e < end; ++e)
+      denser += kOutlierRatio * (radius_sq[graph.rows.neighbors[e]] + least) < radius_sq[i];
+    area[i] = 2 * denser > end - begin ? 0.0f : radius_sq[i] + least;
+  }
+  return area;
+}
 
 /** Sums over one part, weighted by the area of each point. */
 struct PartSums {
@@ -39,10 +62,13 @@ struct Side {
 };
 
 std::vector<PartSums>
-sumParts(PointsView p, NormalsView n, const SignedGroups& parts, const std::vector<float>& area, const std::array<double, 3>* viewpoint)
+sumParts(PointsView p, NormalsView n, const SignedGroups& parts, const std::vector<float>& area,
+         const std::array<double, 3>* viewpoint)
 {
   std::vector<PartSums> sums(parts.count);
   for (std::size_t i = 0; i < p.size; ++i) {
+    if (area[i] == 0.0f)
+      continue;
     PartSums& s = sums[parts.group[i]];
     const double weight = area[i], sign = parts.sign[i];
     const double position[3] = {p.x[i], p.y[i], p.z[i]}, normal[3] = {n.x[i] * sign, n.y[i] * sign, n.z[i] * sign};
@@ -87,8 +113,8 @@ sideOf(const PartSums& s, bool has_viewpoint)
 }
 
 void
-chooseSides(PointsView points, NormalsView normals, const std::vector<float>& area, const std::array<double, 3>* viewpoint,
-            SignedGroups& parts, NormalOrientationStatistics& statistics)
+chooseSides(PointsView points, NormalsView normals, const std::vector<float>& area,
+            const std::array<double, 3>* viewpoint, SignedGroups& parts, NormalOrientationStatistics& statistics)
 {
   std::vector<std::int8_t> side;
   for (const PartSums& sums : sumParts(points, normals, parts, area, viewpoint)) {
@@ -172,7 +198,8 @@ orientNormals(const NormalOrientationParameters& parameters, const PointIndex& p
   if (points.size() == 0)
     return statistics;
   report(progress, 0.0);
-  statistics.noise = parameters.noise > 0.0 ? parameters.noise : noiseAlongNormals(points, normals, parameters.neighbors, threads);
+  statistics.noise =
+      parameters.noise > 0.0 ? parameters.noise : noiseAlongNormals(points, normals, parameters.neighbors, threads);
   const VoteGraph graph = neighborVotes(points, normals, parameters.neighbors, statistics.noise, threads);
   report(progress, 0.6);
   SignedGroups parts = singleGroups(points.size());
@@ -180,12 +207,13 @@ orientNormals(const NormalOrientationParameters& parameters, const PointIndex& p
   report(progress, 0.8);
   followMajority(graph.rows, parts, kMajoritySweeps);
   if (parts.count > 1 && parameters.gap > 0.0) {
-    const VoteRows gaps = gapVotes(points, normals, graph.radius_sq, parameters.neighbors, parts.group, parameters.gap, statistics.noise, threads);
+    const VoteRows gaps = gapVotes(points, normals, graph.radius_sq, parameters.neighbors, parts.group, parameters.gap,
+                                   statistics.noise, threads);
     joinGroups(gaps, parts);
     countVotes(gaps, parts, statistics);
   }
   countVotes(graph.rows, parts, statistics);
-  chooseSides(points.sorted(), normals, graph.radius_sq, viewpoint, parts, statistics);
+  chooseSides(points.sorted(), normals, pointAreas(graph), viewpoint, parts, statistics);
   applySigns(parts.sign, normals, statistics);
   report(progress, 1.0);
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -15,12 +15,14 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 1024;
 constexpr double kPi = 3.14159265358979323846;
-/** Offsets count as far as they are longer than noise and spacing: half where |d|^2 = 8 noise^2 + 2 spacing^2. Two points of one sheet
- * differ by 2 noise^2 along its normal; the spacing keeps stray points beside an edge from turning. */
+/** Offsets count as far as they are longer than the noise: half where |d|^2 = 8 noise^2, since two points of one sheet
+ * differ by 2 noise^2 along its normal. They must also be longer than 1.4 spacings, or stray points beside an edge
+ * would turn, except where the normals make about 45 degrees, as at creases that are sharper than a right angle. */
 constexpr double kNoiseShare = 8.0;
 constexpr double kSpacingShare = 2.0;
 constexpr std::size_t kMostProbes = 4096;
-/** The noise is looked for among this many times the neighbours that vote, since a ball of few neighbours ends before the noise does. */
+/** The noise is looked for among this many times the neighbours that vote, since a ball of few neighbours ends before
+ * the noise does. */
 constexpr std::size_t kNoiseNeighbors = 4;
 /** Median of the squared difference of two normal deviates of variance 1. */
 constexpr double kMedianOfOffsets = 0.91;
@@ -37,27 +39,35 @@ medianOf(std::vector<float>& values)
 double
 spacingSq(float radius_sq, std::size_t k)
 {
-  return radius_sq * kPi / static_cast<double>(k);
+  return radius_sq * kPi / static_cast<double>(std::max<std::size_t>(1, k));
 }
 
-/** Squared length from which on an offset between neighbours counts for more than half. */
-float
-countingLengthSq(double noise, float radius_sq, std::size_t k)
+/** Squared lengths from which on an offset between neighbours counts for more than half. */
+struct CountingLength {
+  float noise_sq;
+  float spacing_sq;
+};
+
+CountingLength
+countingLength(double noise, float radius_sq, std::size_t k)
 {
-  return static_cast<float>(kNoiseShare * noise * noise + kSpacingShare * spacingSq(radius_sq, k));
+  return {static_cast<float>(kNoiseShare * noise * noise), static_cast<float>(kSpacingShare * spacingSq(radius_sq, k))};
 }
 
 /** Relative sign of the normals of two neighbours. */
 std::int16_t
-vote(PointsView p, NormalsView n, std::size_t i, std::size_t j, float counting_sq)
+vote(PointsView p, NormalsView n, std::size_t i, std::size_t j, const CountingLength& counting)
 {
   const float dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i], dz = p.z[j] - p.z[i];
   const float along_i = n.x[i] * dx + n.y[i] * dy + n.z[i] * dz;
   const float along_j = n.x[j] * dx + n.y[j] * dy + n.z[j] * dz;
   const float cosine = n.x[i] * n.x[j] + n.y[i] * n.y[j] + n.z[i] * n.z[j];
   const float length_sq = dx * dx + dy * dy + dz * dz;
-  const float relative = length_sq > 0.0f ? counting_sq / length_sq : 0.0f;
-  const float mirrored = length_sq > 0.0f ? cosine - 2.0f * along_i * along_j / (length_sq * (1.0f + relative * relative)) : cosine;
+  const float twice = 2.0f * cosine * cosine - 1.0f; // cosine of twice the angle
+  const float relative =
+      length_sq > 0.0f ? (counting.noise_sq + twice * twice * counting.spacing_sq) / length_sq : 0.0f;
+  const float mirrored =
+      length_sq > 0.0f ? cosine - 2.0f * along_i * along_j / (length_sq * (1.0f + relative * relative)) : cosine;
   return static_cast<std::int16_t>(std::lround(std::clamp(mirrored, -1.0f, 1.0f) * kFullVote));
 }
 
@@ -100,7 +110,8 @@ noiseAlongNormals(const PointIndex& points, NormalsView normals, std::size_t k, 
       points.tree().nearest(p, {p.x[i], p.y[i], p.z[i]}, kNoiseNeighbors * k + 1, offsets_sq, &indices);
       for (std::size_t e = 0; e < indices.size(); ++e) {
         const std::size_t j = indices[e];
-        const float along = normals.x[i] * (p.x[j] - p.x[i]) + normals.y[i] * (p.y[j] - p.y[i]) + normals.z[i] * (p.z[j] - p.z[i]);
+        const float along =
+            normals.x[i] * (p.x[j] - p.x[i]) + normals.y[i] * (p.y[j] - p.y[i]) + normals.z[i] * (p.z[j] - p.z[i]);
         offsets_sq[e] = along * along;
       }
       medians[probe] = medianOf(offsets_sq);
@@ -127,12 +138,12 @@ neighborVotes(const PointIndex& points, NormalsView normals, std::size_t k, doub
     for (std::size_t i = begin; i < end; ++i) {
       points.tree().nearest(view, {view.x[i], view.y[i], view.z[i]}, degree + 1, distances_sq, &indices);
       graph.radius_sq[i] = distances_sq.back();
-      // Among many coincident points the point itself may be missing from its neighbours: then the last one is left out.
+      // Among many coincident points the point itself may be missing: then the last one is left out.
       indices.erase(std::find(indices.begin(), indices.end() - 1, static_cast<std::uint32_t>(i)));
-      const float counting_sq = countingLengthSq(noise, graph.radius_sq[i], degree);
+      const CountingLength counting = countingLength(noise, graph.radius_sq[i], degree);
       for (std::size_t e = 0; e < degree; ++e) {
         graph.rows.neighbors[i * degree + e] = indices[e];
-        graph.rows.votes[i * degree + e] = vote(view, normals, i, indices[e], counting_sq);
+        graph.rows.votes[i * degree + e] = vote(view, normals, i, indices[e], counting);
       }
     }
   });
@@ -155,8 +166,8 @@ gapVotes(const PointIndex& points, NormalsView normals, const std::vector<float>
     for (std::size_t block = first; block < last; ++block) {
       runs.assign(near.runs.begin() + static_cast<std::ptrdiff_t>(near.run_offsets[block]),
                   near.runs.begin() + static_cast<std::ptrdiff_t>(near.run_offsets[block + 1]));
-      nearestOfOtherParts(points, part, runs, reach_sq, block * kQueryBlock, std::min(view.size, (block + 1) * kQueryBlock),
-                          nearest.data());
+      nearestOfOtherParts(points, part, runs, reach_sq, block * kQueryBlock,
+                          std::min(view.size, (block + 1) * kQueryBlock), nearest.data());
     }
   });
   VoteRows rows;
@@ -164,7 +175,7 @@ gapVotes(const PointIndex& points, NormalsView normals, const std::vector<float>
   for (std::size_t i = 0; i < view.size; ++i) {
     if (nearest[i] != i) {
       rows.neighbors.push_back(nearest[i]);
-      rows.votes.push_back(vote(view, normals, i, nearest[i], countingLengthSq(noise, radius_sq[i], degree)));
+      rows.votes.push_back(vote(view, normals, i, nearest[i], countingLength(noise, radius_sq[i], degree)));
     }
     rows.offsets.push_back(rows.neighbors.size());
   }

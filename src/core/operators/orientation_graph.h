@@ -28,7 +28,8 @@ struct VoteGraph {
   std::vector<float> radius_sq;
 };
 
-/** Standard deviation of the positions along the normals as the k nearest neighbours see it: at most about half their radius. */
+/** Standard deviation of the positions along the normals as the k nearest neighbours see it: at most about half their
+ * radius. */
 double
 noiseAlongNormals(const PointIndex& points, NormalsView normals, std::size_t k, std::size_t threads);
 
@@ -36,7 +37,8 @@ noiseAlongNormals(const PointIndex& points, NormalsView normals, std::size_t k, 
 VoteGraph
 neighborVotes(const PointIndex& points, NormalsView normals, std::size_t k, double noise, std::size_t threads);
 
-/** Votes across gaps: of each point with the nearest one of another part within `gap` local spacings; rows may be empty.
+/** Votes across gaps: of each point with the nearest one of another part within `gap` local spacings; rows may be
+ * empty.
  * \param[in] part of each point */
 VoteRows
 gapVotes(const PointIndex& points, NormalsView normals, const std::vector<float>& radius_sq, std::size_t k,

@@ -34,7 +34,10 @@ struct LinkRows {
 /** Sets with a sign relative to their root. */
 class SignedSets {
 public:
-  explicit SignedSets(std::size_t size) : parent_(size), sign_(size, 1) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit SignedSets(std::size_t size) : parent_(size), sign_(size, 1)
+  {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
 
   /** Root of a; `sign` becomes that of a relative to it. */
   std::uint32_t

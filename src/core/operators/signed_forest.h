@@ -8,7 +8,8 @@
 
 namespace pcl_gpf {
 
-/** Every point's group, numbered from 0 in the order of their first points, and its sign relative to the group (+1 or -1). */
+/** Every point's group, numbered from 0 in the order of their first points, and its sign relative to the group (+1 or
+ * -1). */
 struct SignedGroups {
   std::vector<std::uint32_t> group;
   std::vector<std::int8_t> sign;
@@ -19,8 +20,8 @@ struct SignedGroups {
 SignedGroups
 singleGroups(std::size_t size);
 
-/** Joins groups until no vote leads from one to another: in every round each group joins the neighbour with the clearest sum of votes,
- * and the votes of what has been joined are added up. */
+/** Joins groups until no vote leads from one to another: in every round each group joins the neighbour with the
+ * clearest sum of votes, and the votes of what has been joined are added up. */
 void
 joinGroups(const VoteRows& rows, SignedGroups& groups);
 
