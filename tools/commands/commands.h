@@ -15,6 +15,8 @@ normalsCommand();
 Command
 orientCommand();
 Command
+meshCommand();
+Command
 convertCommand();
 Command
 noiseCommand();
