@@ -18,8 +18,10 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kFewestPoints = 4;
-/** Least local radius: with it a cell on a convex corner, which reaches a diagonal beyond the surface, is still in the domain. */
-constexpr double kLeastRadiusInCells = 2.0;
+/** r_i of an even cloud in spacings. */
+constexpr double kRadiusInSpacings = 1.128;
+/** Least scale where the cells, not the points, set the local radius. */
+constexpr double kLeastScale = 3.5;
 /** Shares of the work, for the progress. */
 constexpr double kSeedsDone = 0.15, kCellsDone = 0.8;
 
@@ -54,6 +56,24 @@ refuseTooMuchMemory(double bytes, double limit, double cells_along_side)
     throw ExcessiveWork("a resolution of " + toText(std::round(cells_along_side)) + " cells along the longest side takes about " +
                         gibibytes(bytes) + "; allowed are " + gibibytes(limit) + ", enough for a resolution of about " +
                         toText(std::floor(cells_along_side * std::sqrt(limit / bytes))));
+}
+
+/** Local radii for cells that the points do not fill: a cell on a convex corner, which reaches a diagonal beyond the surface, must be in
+ * the domain. The support stays what it is where it is wide enough for that. */
+RimlsParameters
+fitToCells(const RimlsMeshParameters& parameters, double cell_size, double spacing)
+{
+  RimlsParameters rimls = parameters.rimls;
+  rimls.number_of_threads = parameters.number_of_threads;
+  const double least = (0.9 * cell_size + spacing) * 2.0 / rimls.domain;
+  const double natural = rimls.radius > 0.0 ? rimls.radius / rimls.scale : kRadiusInSpacings * spacing;
+  rimls.minimum_radius = std::max(rimls.minimum_radius, least);
+  if (least > natural) {
+    const double scale = std::max(std::min(kLeastScale, rimls.scale), rimls.scale * natural / least);
+    rimls.radius *= scale / rimls.scale;
+    rimls.scale = scale;
+  }
+  return rimls;
 }
 
 /** One point of every cell, in the order of the index. */
@@ -169,9 +189,7 @@ meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView 
   done.expected_memory = estimateSurfaceMemory(done.spacing * done.spacing * static_cast<double>(points.size), done.cell_size);
   refuseTooMuchMemory(done.expected_memory, static_cast<double>(parameters.memory_limit), side / done.cell_size);
 
-  RimlsParameters rimls = parameters.rimls;
-  rimls.minimum_radius = std::max(rimls.minimum_radius, kLeastRadiusInCells * done.cell_size);
-  rimls.number_of_threads = parameters.number_of_threads;
+  const RimlsParameters rimls = fitToCells(parameters, done.cell_size, done.spacing);
   const SoaBuffer sorted_normals = [&] {
     SoaBuffer sorted(points.size);
     for (std::size_t k = 0; k < points.size; ++k) {

@@ -75,8 +75,10 @@ TEST(RimlsMesh, verticesLieOnTheSurfaceAndFacesLookAlongNormals)
     EXPECT_NEAR(distance({mesh.vertices.x[i], mesh.vertices.y[i], mesh.vertices.z[i]}, {0, 0, 0}), radius, 0.02 * radius);
   EXPECT_LT(turnedFaces(mesh), 1e-4);
   EXPECT_LT(turnedFaces(meshOf(toLocalCloud(turned(block(10000))), {}, 100)), 1e-3);
-  RimlsParameters rimls = RimlsMeshParameters().rimls;
-  rimls.minimum_radius = 2 * statistics.cell_size; // as the mesher sets it
+  RimlsParameters rimls; // as the mesher sets it: cells of 0.6 spacings
+  const double least = 0.9 * statistics.cell_size + statistics.spacing, natural = 1.128 * statistics.spacing;
+  rimls.minimum_radius = least;
+  rimls.scale = 6 * natural / least;
   const RimlsSurface surface(rimls, cloud.points.view(), cloud.normals.view());
   std::vector<float> value(mesh.vertexCount());
   surface.evaluate(mesh.vertices.view(), {value.data(), {}, nullptr});

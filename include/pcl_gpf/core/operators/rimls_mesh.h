@@ -14,8 +14,9 @@ namespace pcl_gpf {
 
 /** \brief Parameters of the RIMLS surface mesh. Lengths are in the unit of the points they are used with. */
 struct RimlsMeshParameters {
-  /** The implicit surface. Local radii below two cells are raised to that, for there is nothing to resolve below. Default scale 6, not 4:
-   * at a corner of unevenly sampled faces a small support may see one face only and go on beyond it. */
+  /** The implicit surface. Where cells are wide against the points, local radii are raised and the scale is lowered, so that the support
+   * reaches about 4 cells at least: there is nothing to resolve below. Default scale 6, not 4: at a corner of unevenly sampled faces a
+   * small support may see one face only and go on beyond it. */
   RimlsParameters rimls = defaultRimls();
 
   /** Cells along the longest side of the box of the points (outliers left out), 2 .. 65536. Time and
