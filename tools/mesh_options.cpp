@@ -67,6 +67,7 @@ readRimls(const Options& options, const CloudScale& scale, RimlsMeshParameters& 
   rimls.rimls.sigma_r = options.number("sigma-r");
   rimls.project_vertices = !options.given("no-projection");
   rimls.smallest_component = options.number("smallest");
+  rimls.largest_hole = static_cast<unsigned>(options.count("holes"));
   rimls.memory_limit = static_cast<std::size_t>(static_cast<double>(options.count("memory")) * kBytesPerMebibyte);
 }
 
@@ -99,6 +100,7 @@ meshOptions()
           number("point-weight", poisson.point_weight, 0, 1000, "weight of points against normals (poisson)"),
           number("trim", poisson.trim, 0, 1e6, "drop triangles farther than this many spacings from all points, 0 = none (poisson)"),
           number("smallest", rimls.smallest_component, 0, 1, "drop parts smaller than this share of the largest one's triangles"),
+          count("holes", rimls.largest_hole, 0, 1000, "close holes of at most this many edges (rimls)"),
           count("memory", 2048, 1, 1048576, "most memory for cells and mesh, MiB (rimls)"),
           choice("orientation", {"auto", "file", "orient"},
                  "auto: orient normals that contradict each other; file: take them as they are; orient: always")};
@@ -108,7 +110,7 @@ void
 checkMeshOptions(const Options& options)
 {
   if (options.text("method") == "poisson") {
-    refuseForeign(options, {"cell", "scale", "radius", "sigma-n", "sigma-r", "no-projection", "memory"}, "poisson");
+    refuseForeign(options, {"cell", "scale", "radius", "sigma-n", "sigma-r", "no-projection", "holes", "memory"}, "poisson");
     if (octreeDepth(options) > 12)
       throw UsageError("--resolution " + options.text("resolution") + ": --method poisson goes up to 4096");
   } else

@@ -28,6 +28,7 @@ parametersJson(const MeshParameters& p)
           {"sigma_r", p.rimls.rimls.sigma_r},
           {"projection", p.rimls.project_vertices},
           {"smallest", p.rimls.smallest_component},
+          {"holes", p.rimls.largest_hole},
           {"memory_bytes", p.rimls.memory_limit}};
 }
 
@@ -42,6 +43,7 @@ rimlsJson(const RimlsMeshStatistics& s)
           {"cells", s.cells.cells},
           {"skipped_cells", s.cells.skipped_cells},
           {"removed_components", s.removed_components},
+          {"filled_holes", s.filled_holes},
           {"vertex_movement", s.mean_vertex_movement}};
 }
 

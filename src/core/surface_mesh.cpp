@@ -2,15 +2,13 @@
 #include <pcl_gpf/core/surface_mesh.h>
 
 #include "check_range.h"
+#include "mesh_components.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace pcl_gpf {
 
-namespace {
-
-/** Root of the set of vertices that triangles connect, for every vertex; the root is the least vertex. */
 std::vector<std::uint32_t>
 componentRoots(const SurfaceMesh& mesh)
 {
@@ -31,7 +29,6 @@ componentRoots(const SurfaceMesh& mesh)
   return parent;
 }
 
-/** Triangles of the component of each root. */
 std::vector<std::size_t>
 componentSizes(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& roots)
 {
@@ -40,6 +37,8 @@ componentSizes(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& roots)
     ++sizes[roots[mesh.triangles[t]]];
   return sizes;
 }
+
+namespace {
 
 SoaBuffer
 selected(const SoaBuffer& from, const std::vector<std::uint32_t>& kept)

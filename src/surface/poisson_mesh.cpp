@@ -2,7 +2,6 @@
 #include <pcl_gpf/common/abi_check.h>
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/errors.h>
-#include <pcl_gpf/core/marching_cubes.h>
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/surface/poisson_mesh.h>

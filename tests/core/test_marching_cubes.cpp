@@ -223,6 +223,25 @@ TEST(SurfaceMesh, smallComponentsGoAndTheOthersStay)
   EXPECT_EQ(removeSmallComponents(empty, 0.5), 0u);
 }
 
+TEST(SurfaceMesh, smallHolesAreClosedAndRimsAreNot)
+{
+  const ScalarField pierced = [](const Vector3& p) { return p[0] > 0.495 ? kNotDefined : sphereField(p); };
+  SurfaceMesh mesh = meshOf(pierced, 0.02, {{-0.5, 0, 0}});
+  const std::size_t rim = meshTopology(mesh).open_edges;
+  ASSERT_GT(rim, 0u);
+  EXPECT_EQ(fillSmallHoles(mesh, rim - 1), 0u);
+  EXPECT_EQ(fillSmallHoles(mesh, rim), 1u);
+  expectClosed(mesh, 2);
+  ASSERT_EQ(mesh.normals.size(), mesh.vertexCount());
+  EXPECT_GT(mesh.normals.x[mesh.vertexCount() - 1], 0.99f);
+  EXPECT_EQ(fillSmallHoles(mesh, 1000), 0u);
+
+  const ScalarField cap = [](const Vector3& p) { return p[0] < 0.45 ? kNotDefined : sphereField(p); };
+  SurfaceMesh patch = meshOf(cap, 0.02, {{0.5, 0, 0}});
+  ASSERT_GT(patch.triangleCount(), 100u);
+  EXPECT_EQ(fillSmallHoles(patch, 1000), 0u);
+}
+
 TEST(SurfaceMesh, topologyCountsBorderAndBadEdges)
 {
   SurfaceMesh mesh;

@@ -57,10 +57,6 @@ extractSurface(const MarchingCubesParameters& parameters,
                const ProgressCallback& progress = {},
                MarchingCubesStatistics* statistics = nullptr);
 
-/** \brief Makes vertex normals unit vectors; those without a direction become the mean normal of their faces. */
-PCL_GPF_CORE_EXPORT void
-completeNormals(SurfaceMesh& mesh);
-
 /** \brief Bytes that extractSurface() takes at most for a surface of this area, roughly. */
 PCL_GPF_CORE_EXPORT double
 estimateSurfaceMemory(double area, double cell_size);

@@ -39,4 +39,15 @@ meshTopology(const SurfaceMesh& mesh);
 PCL_GPF_CORE_EXPORT std::size_t
 removeSmallComponents(SurfaceMesh& mesh, double share);
 
+/** \brief Closes holes of at most so many edges by fans about their middle; the rim of a small patch is none. Places where holes touch
+ * are left open.
+ *
+ * \param[in] most_edges below 3 fills nothing \return number of holes closed */
+PCL_GPF_CORE_EXPORT std::size_t
+fillSmallHoles(SurfaceMesh& mesh, std::size_t most_edges);
+
+/** \brief Makes vertex normals unit vectors; those without a direction become the mean normal of their faces. */
+PCL_GPF_CORE_EXPORT void
+completeNormals(SurfaceMesh& mesh);
+
 } // namespace pcl_gpf

@@ -168,6 +168,7 @@ validate(const RimlsMeshParameters& p)
   checkRange("resolution", p.resolution, p.resolution >= 2 && p.resolution <= 65536, "2 .. 65536");
   checkRange("cell_size", p.cell_size, p.cell_size >= 0.0, ">= 0, 0 = from the resolution");
   checkRange("smallest_component", p.smallest_component, p.smallest_component >= 0.0 && p.smallest_component <= 1.0, "0 .. 1");
+  checkRange("largest_hole", p.largest_hole, p.largest_hole <= 1000, "0 .. 1000");
   checkRange("memory_limit", static_cast<double>(p.memory_limit), p.memory_limit >= 1, ">= 1 byte");
 }
 
@@ -216,7 +217,9 @@ meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView 
   if (parameters.project_vertices) {
     done.mean_vertex_movement = projectVertices(surface, done.cell_size, mesh, partOf(progress, kCellsDone, 1.0));
     completeNormals(mesh);
-  } else if (progress && !progress(1.0))
+  }
+  done.filled_holes = fillSmallHoles(mesh, parameters.largest_hole);
+  if (progress && !progress(1.0))
     throw Cancelled();
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return mesh;

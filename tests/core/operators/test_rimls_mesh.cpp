@@ -52,15 +52,17 @@ turnedFaces(const SurfaceMesh& mesh)
 
 TEST(RimlsMesh, isClosedAndOfTheRightTopologyWithoutNoise)
 {
+  RimlsMeshParameters p;
+  p.largest_hole = 0; // there must be none to fill
   for (const std::uint64_t seed : {1u, 2u}) {
     const LocalCloud ball = toLocalCloud(turned(sphere(8000, 0, seed))), ring = toLocalCloud(turned(torus(8000, 0, seed))),
                      box = toLocalCloud(turned(block(8000, 0, seed))), straight_box = toLocalCloud(block(2000, 0, seed));
     for (const unsigned resolution : {25u, 60u, 120u}) {
       const std::string at = " of seed " + std::to_string(seed) + " at " + std::to_string(resolution);
-      expectClosed(meshOf(ball, {}, resolution), 2, "sphere" + at);
-      expectClosed(meshOf(ring, {}, resolution), 0, "torus" + at);
-      expectClosed(meshOf(box, {}, resolution), 2, "block" + at);
-      expectClosed(meshOf(straight_box, {}, resolution), 2, "straight block" + at);
+      expectClosed(meshOf(ball, p, resolution), 2, "sphere" + at);
+      expectClosed(meshOf(ring, p, resolution), 0, "torus" + at);
+      expectClosed(meshOf(box, p, resolution), 2, "block" + at);
+      expectClosed(meshOf(straight_box, p, resolution), 2, "straight block" + at);
     }
   }
 }
@@ -194,6 +196,7 @@ TEST(RimlsMesh, refusesCloudsWithoutSurfaceAndBadParameters)
   refused([](RimlsMeshParameters& p) { p.resolution = 70000; });
   refused([](RimlsMeshParameters& p) { p.cell_size = -1; });
   refused([](RimlsMeshParameters& p) { p.smallest_component = 2; });
+  refused([](RimlsMeshParameters& p) { p.largest_hole = 1001; });
   refused([](RimlsMeshParameters& p) { p.memory_limit = 0; });
   refused([](RimlsMeshParameters& p) { p.rimls.scale = 0; });
 }

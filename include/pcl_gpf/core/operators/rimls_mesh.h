@@ -32,6 +32,9 @@ struct RimlsMeshParameters {
   /** Connected parts with fewer triangles than this share of the largest one's are removed, 0 .. 1. */
   double smallest_component = 0.01;
 
+  /** Holes of at most so many edges are closed, 0 .. 1000; 0 = none. They appear where the surface leaves its domain for a few cells. */
+  unsigned largest_hole = 30;
+
   /** Bytes that lattice and mesh may take, >= 1. */
   std::size_t memory_limit = std::size_t{2} << 30;
 
@@ -60,6 +63,7 @@ struct RimlsMeshStatistics {
   double expected_memory = 0;    ///< bytes, estimated before the work starts
   MarchingCubesStatistics cells;
   std::size_t removed_components = 0;
+  std::size_t filled_holes = 0;
   double mean_vertex_movement = 0; ///< of the projection
   double seconds = 0;
 };
