@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/cluster_tree.h>
-#include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/parallel.h>
+
+#include "kernels/kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,68 +13,7 @@ namespace pcl_gpf {
 
 namespace {
 
-constexpr unsigned kBitsPerAxis = 21; // three axes fill a 63-bit key
-constexpr std::size_t kPointsPerTask = 16384;
 constexpr std::size_t kPacksPerTask = 512;
-
-/** Index along the Hilbert curve of a cell (Skilling, "Programming the Hilbert curve", 2004). */
-std::uint64_t
-hilbertKey(std::array<std::uint32_t, 3> cell)
-{
-  for (std::uint32_t bit = 1u << (kBitsPerAxis - 1); bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Branch-free: invert the low bits of x when this axis' bit is set, else exchange them with this axis'.
-      const std::uint32_t set = 0u - static_cast<std::uint32_t>((cell[axis] & bit) != 0);
-      const std::uint32_t exchanged = (cell[0] ^ cell[axis]) & below & ~set;
-      cell[0] ^= (below & set) | exchanged;
-      cell[axis] ^= exchanged;
-    }
-  }
-  cell[1] ^= cell[0];
-  cell[2] ^= cell[1];
-  std::uint32_t flip = 0;
-  for (std::uint32_t bit = 1u << (kBitsPerAxis - 1); bit > 1; bit >>= 1)
-    flip ^= (bit - 1) & (0u - static_cast<std::uint32_t>((cell[2] & bit) != 0));
-  std::uint64_t key = 0;
-  const auto spread = [](std::uint64_t v) { // two zero bits between neighbouring bits
-    v = (v | v << 32) & 0x1f00000000ffffull;
-    v = (v | v << 16) & 0x1f0000ff0000ffull;
-    v = (v | v << 8) & 0x100f00f00f00f00full;
-    v = (v | v << 4) & 0x10c30c30c30c30c3ull;
-    return (v | v << 2) & 0x1249249249249249ull;
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    key |= spread(cell[axis] ^ flip) << (2 - axis);
-  return key;
-}
-
-/** Stable least-significant-digit radix sort of values by 63-bit keys; digits that all keys share are skipped. */
-void
-radixSort(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& values)
-{
-  constexpr unsigned kDigitBits = 11;
-  constexpr std::size_t kBuckets = std::size_t{1} << kDigitBits;
-  std::vector<std::uint64_t> other_keys(keys.size());
-  std::vector<std::uint32_t> other_values(values.size());
-  for (unsigned shift = 0; shift < 63; shift += kDigitBits) {
-    std::array<std::size_t, kBuckets> start{};
-    for (const std::uint64_t key : keys)
-      ++start[(key >> shift) & (kBuckets - 1)];
-    if (start[(keys.front() >> shift) & (kBuckets - 1)] == keys.size())
-      continue;
-    std::size_t sum = 0;
-    for (std::size_t& bucket : start)
-      sum += std::exchange(bucket, sum);
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      const std::size_t target = start[(keys[i] >> shift) & (kBuckets - 1)]++;
-      other_keys[target] = keys[i];
-      other_values[target] = values[i];
-    }
-    keys.swap(other_keys);
-    values.swap(other_values);
-  }
-}
 
 FloatBox
 emptyBox()
@@ -96,44 +36,83 @@ boxOf(PointsView points, std::size_t begin, std::size_t end, const float* radii 
   return box;
 }
 
-/** The box that the curve fills; points outside it share its border cells. */
-BoundingBox
-curveBox(PointsView points)
+/** The k nearest of the points seen so far, and some more until there are enough of these to be worth a partition. */
+class NearestEntries {
+public:
+  using Entry = std::pair<float, std::uint32_t>; ///< squared distance and index
+
+  explicit NearestEntries(std::size_t k) : k_(k), capacity_(k + std::max<std::size_t>(16, k / 2)) { entries_.reserve(capacity_); }
+
+  /** No point at or beyond this squared distance is wanted. */
+  float bound() const { return bound_; }
+  void
+  add(float distance_sq, std::uint32_t index)
+  {
+    if (!(distance_sq < bound_))
+      return;
+    entries_.emplace_back(distance_sq, index);
+    if (entries_.size() == capacity_)
+      prune();
+  }
+  const std::vector<Entry>&
+  sorted()
+  {
+    if (entries_.size() > k_)
+      prune();
+    std::sort(entries_.begin(), entries_.end());
+    return entries_;
+  }
+
+private:
+  void
+  prune()
+  {
+    std::nth_element(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(k_ - 1), entries_.end());
+    entries_.resize(k_);
+    bound_ = entries_.back().first;
+  }
+
+  std::size_t k_, capacity_;
+  float bound_ = std::numeric_limits<float>::infinity();
+  std::vector<Entry> entries_;
+};
+
+/** The stretches of ones in a byte. */
+struct BitSegments {
+  std::uint8_t count = 0;
+  std::uint8_t begin[4] = {}, end[4] = {};
+};
+
+constexpr std::array<BitSegments, 256>
+makeBitSegments()
 {
-  const FloatBox all = boxOf(points, 0, points.size);
-  BoundingBox box;
-  box.add(all.min[0], all.min[1], all.min[2]);
-  box.add(all.max[0], all.max[1], all.max[2]);
-  const float* axes[3] = {points.x, points.y, points.z};
-  return denseBox(box, points.size, [&](std::size_t i, std::size_t axis) { return static_cast<double>(axes[axis][i]); });
+  std::array<BitSegments, 256> table{};
+  for (unsigned byte = 0; byte < 256; ++byte)
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      BitSegments& segments = table[byte];
+      const bool set = (byte >> bit & 1u) != 0, set_before = bit > 0 && (byte >> (bit - 1) & 1u) != 0;
+      if (set && !set_before)
+        segments.begin[segments.count++] = static_cast<std::uint8_t>(bit);
+      if (set)
+        segments.end[segments.count - 1] = static_cast<std::uint8_t>(bit + 1);
+    }
+  return table;
+}
+
+constexpr std::array<BitSegments, 256> kBitSegments = makeBitSegments();
+
+/** near[k]: which of the 8 boxes of packs[nodes[k]] come within `radius` of `box`, a bit each. */
+void
+findNear(const std::vector<BoxPack>& packs, const std::vector<std::uint32_t>& nodes, const FloatBox& box, float radius,
+         std::vector<std::uint8_t>& near)
+{
+  near.resize(nodes.size());
+  // Boxes that are not there are at infinity, beyond any finite square.
+  const float radius_sq = std::min(radius * radius, std::numeric_limits<float>::max());
+  kernels::active().near_children({packs.data(), nodes.data(), nodes.size(), box, radius_sq, near.data()});
 }
 
 } // namespace
-
-std::vector<std::uint32_t>
-hilbertOrder(PointsView points, std::size_t threads)
-{
-  std::vector<std::uint32_t> order(points.size);
-  if (points.size == 0)
-    return order;
-  const BoundingBox box = curveBox(points);
-  const double extent = std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
-  constexpr double kLastCell = (1u << kBitsPerAxis) - 1;
-  const double to_cell = extent > 0.0 ? kLastCell / extent : 0.0;
-
-  std::vector<std::uint64_t> keys(points.size);
-  parallelBlocks(points.size, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
-    const auto cell = [&](float p, std::size_t axis) {
-      return static_cast<std::uint32_t>(std::clamp((p - box.min[axis]) * to_cell, 0.0, kLastCell));
-    };
-    for (std::size_t i = begin; i < end; ++i) {
-      keys[i] = hilbertKey({cell(points.x[i], 0), cell(points.y[i], 1), cell(points.z[i], 2)});
-      order[i] = static_cast<std::uint32_t>(i);
-    }
-  });
-  radixSort(keys, order);
-  return order;
-}
 
 void
 ClusterTree::fit(PointsView sorted, std::size_t threads, const float* radii)
@@ -162,7 +141,7 @@ ClusterTree::fit(PointsView sorted, std::size_t threads, const float* radii)
             box = boxOf(sorted, std::min(size_, child * kClusterSize), std::min(size_, (child + 1) * kClusterSize), radii);
           else if (child < levels_[level - 1].size())
             for (std::size_t axis = 0; axis < 3; ++axis) {
-              const Pack& below = levels_[level - 1][child];
+              const BoxPack& below = levels_[level - 1][child];
               box.min[axis] = *std::min_element(below.min[axis], below.min[axis] + kFanout);
               box.max[axis] = *std::max_element(below.max[axis], below.max[axis] + kFanout);
             }
@@ -181,7 +160,7 @@ ClusterTree::bounds() const
   FloatBox box = emptyBox();
   if (size_ > 0)
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Pack& top = levels_.back().front();
+      const BoxPack& top = levels_.back().front();
       box.min[axis] = *std::min_element(top.min[axis], top.min[axis] + kFanout);
       box.max[axis] = *std::max_element(top.max[axis], top.max[axis] + kFanout);
     }
@@ -189,37 +168,51 @@ ClusterTree::bounds() const
 }
 
 void
-ClusterTree::collectRuns(const FloatBox& box, float radius, std::vector<Run>& runs) const
+ClusterTree::collectGroups(const FloatBox& box, float radius, std::vector<std::uint32_t>& groups) const
 {
-  if (size_ > 0)
-    descend(levels_.size() - 1, 0, box, std::min(radius * radius, std::numeric_limits<float>::max()), runs); // empty boxes are at infinity
+  groups.clear();
+  if (size_ == 0)
+    return;
+  groups.push_back(0);
+  std::vector<std::uint32_t> children;
+  std::vector<std::uint8_t> near;
+  for (std::size_t level = levels_.size() - 1; level > 0; --level) {
+    findNear(levels_[level], groups, box, radius, near);
+    children.clear();
+    for (std::size_t k = 0; k < groups.size(); ++k)
+      for (std::uint32_t c = 0; c < kFanout; ++c)
+        if ((near[k] >> c & 1u) != 0)
+          children.push_back(groups[k] * static_cast<std::uint32_t>(kFanout) + c);
+    groups.swap(children);
+  }
 }
 
 void
-ClusterTree::descend(std::size_t level, std::size_t pack, const FloatBox& box, float radius_sq, std::vector<Run>& runs) const
+ClusterTree::collectRuns(const std::vector<std::uint32_t>& groups, const FloatBox& box, float radius, std::vector<Run>& runs) const
 {
-  const Pack& children = levels_[level][pack];
-  float gap_sq[kFanout] = {};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t c = 0; c < kFanout; ++c) {
-      const float gap = std::max(0.0f, std::max(children.min[axis][c] - box.max[axis], box.min[axis] - children.max[axis][c]));
-      gap_sq[c] += gap * gap;
+  std::vector<std::uint8_t> near;
+  findNear(levels_.front(), groups, box, radius, near);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const BitSegments& segments = kBitSegments[near[k]];
+    for (std::size_t s = 0; s < segments.count; ++s) {
+      const auto begin = static_cast<std::uint32_t>((groups[k] * kFanout + segments.begin[s]) * kClusterSize);
+      const auto end = static_cast<std::uint32_t>(std::min(size_, (groups[k] * kFanout + segments.end[s]) * kClusterSize));
+      if (!runs.empty() && runs.back().end == begin)
+        runs.back().end = end;
+      else
+        runs.push_back({begin, end});
     }
-  for (std::size_t c = 0; c < kFanout; ++c) {
-    if (!(gap_sq[c] <= radius_sq))
-      continue;
-    const std::size_t child = pack * kFanout + c;
-    if (level > 0) {
-      descend(level - 1, child, box, radius_sq, runs);
-      continue;
-    }
-    const auto begin = static_cast<std::uint32_t>(child * kClusterSize);
-    const auto end = static_cast<std::uint32_t>(std::min(size_, (child + 1) * kClusterSize));
-    if (!runs.empty() && runs.back().end == begin)
-      runs.back().end = end;
-    else
-      runs.push_back({begin, end});
   }
+}
+
+void
+ClusterTree::collectRuns(const FloatBox& box, float radius, std::vector<Run>& runs) const
+{
+  if (size_ == 0)
+    return;
+  std::vector<std::uint32_t> groups;
+  collectGroups(box, radius, groups);
+  collectRuns(groups, box, radius, runs);
 }
 
 void
@@ -235,9 +228,8 @@ ClusterTree::nearest(PointsView sorted,
   k = std::min(k, size_);
   if (k == 0)
     return;
-  using Entry = std::pair<float, std::uint32_t>;
-  std::vector<Entry> best; // heap, farthest first
-  struct Node {            // heap below, nearest box first; level 0 is a cluster
+  NearestEntries best(k);
+  struct Node { // heap, nearest box first; level 0 is a cluster
     float gap_sq;
     std::uint32_t index;
     std::uint8_t level;
@@ -248,39 +240,30 @@ ClusterTree::nearest(PointsView sorted,
     std::pop_heap(queue.begin(), queue.end());
     const Node node = queue.back();
     queue.pop_back();
-    if (best.size() == k && node.gap_sq >= best.front().first)
+    if (node.gap_sq >= best.bound())
       break;
     if (node.level == 0) {
       const std::size_t end = std::min(size_, (node.index + std::size_t{1}) * kClusterSize);
       for (std::size_t i = node.index * kClusterSize; i < end; ++i) {
         const float dx = sorted.x[i] - query[0], dy = sorted.y[i] - query[1], dz = sorted.z[i] - query[2];
-        const float distance_sq = dx * dx + dy * dy + dz * dz;
-        if (best.size() == k) {
-          if (distance_sq >= best.front().first)
-            continue;
-          std::pop_heap(best.begin(), best.end());
-          best.pop_back();
-        }
-        best.emplace_back(distance_sq, static_cast<std::uint32_t>(i));
-        std::push_heap(best.begin(), best.end());
+        best.add(dx * dx + dy * dy + dz * dz, static_cast<std::uint32_t>(i));
       }
       continue;
     }
-    const Pack& children = levels_[node.level - 1u][node.index];
+    const BoxPack& children = levels_[node.level - 1u][node.index];
     for (std::size_t c = 0; c < kFanout; ++c) {
       float gap_sq = 0.0f;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const float gap = std::max(0.0f, std::max(children.min[axis][c] - query[axis], query[axis] - children.max[axis][c]));
         gap_sq += gap * gap;
       }
-      if (gap_sq < std::numeric_limits<float>::infinity() && (best.size() < k || gap_sq < best.front().first)) {
+      if (gap_sq < best.bound()) {
         queue.push_back({gap_sq, static_cast<std::uint32_t>(node.index * kFanout + c), static_cast<std::uint8_t>(node.level - 1)});
         std::push_heap(queue.begin(), queue.end());
       }
     }
   }
-  std::sort_heap(best.begin(), best.end());
-  for (const Entry& entry : best) {
+  for (const NearestEntries::Entry& entry : best.sorted()) {
     distances_sq.push_back(entry.first);
     if (indices)
       indices->push_back(entry.second);

@@ -22,6 +22,12 @@ public:
     built_ = true;
     moved_ = 0.0;
   }
+  void
+  release()
+  {
+    neighborhoods_ = {};
+    built_ = false;
+  }
   void addMovement(double longest) { moved_ += longest; }
   const Neighborhoods& get() const { return neighborhoods_; }
 

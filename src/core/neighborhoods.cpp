@@ -14,11 +14,13 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kBlocksPerTask = 256;
+/** Blocks that share one descent into the tree: together not much wider than a ball. */
+constexpr std::size_t kBlocksPerDescent = 16;
 /** Work beyond this many candidate pairs an iteration, and this many a point, is taken for a mistaken radius. */
 constexpr double kMostCandidatePairs = 2e10;
 constexpr double kManyCandidates = 20000.0;
 constexpr std::size_t kProbes = 256;
-/** Rough cost of a candidate pair, only used to put a figure into the refusal. */
+/** Rough cost of a candidate pair on one thread, only used to put a figure into the refusal. */
 constexpr double kSecondsPerCandidate = 1e-9;
 
 FloatBox
@@ -36,6 +38,18 @@ blockBox(PointsView queries, std::size_t block)
   return box;
 }
 
+FloatBox
+unite(const FloatBox* boxes, std::size_t count)
+{
+  FloatBox all = boxes[0];
+  for (std::size_t k = 1; k < count; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all.min[axis] = std::min(all.min[axis], boxes[k].min[axis]);
+      all.max[axis] = std::max(all.max[axis], boxes[k].max[axis]);
+    }
+  return all;
+}
+
 /** A hair more than the radius: boxes are rounded to float, kernels may work in double. */
 float
 reach(double radius, const FloatBox& box)
@@ -46,13 +60,20 @@ reach(double radius, const FloatBox& box)
   return static_cast<float>(radius * (1.0 + 1e-5) + 2e-7 * (farthest + radius));
 }
 
+std::string
+rounded(double value)
+{
+  return std::to_string(static_cast<long long>(std::ceil(value)));
+}
+
+/** Counts candidates and runs of a sample of blocks. \throws ExcessiveWork with the estimated pairs, time and memory */
 template <typename RadiusOfBlock>
 void
 refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
 {
   const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
   const std::size_t stride = std::max<std::size_t>(1, blocks / kProbes);
-  double candidates = 0.0;
+  double candidates = 0.0, run_count = 0.0;
   std::size_t probes = 0;
   std::vector<Run> runs;
   for (std::size_t block = 0; block < blocks; block += stride, ++probes) {
@@ -61,14 +82,17 @@ refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfB
     tree.collectRuns(box, reach(radius(block), box), runs);
     for (const Run& run : runs)
       candidates += static_cast<double>(run.end - run.begin);
+    run_count += static_cast<double>(runs.size());
   }
   const double per_point = probes > 0 ? candidates / static_cast<double>(probes) : 0.0;
   const double pairs = per_point * static_cast<double>(queries.size);
-  if (per_point > kManyCandidates && pairs > kMostCandidatePairs)
-    throw ExcessiveWork("the radius holds about " + std::to_string(static_cast<long long>(per_point)) +
-                        " candidates a point, " + std::to_string(static_cast<long long>(pairs / 1e9)) +
-                        " billion pairs and roughly " + std::to_string(static_cast<long long>(pairs * kSecondsPerCandidate)) +
-                        " s an iteration; choose a smaller radius");
+  if (!(per_point > kManyCandidates && pairs > kMostCandidatePairs))
+    return;
+  const double bytes = run_count / static_cast<double>(probes) * static_cast<double>(blocks) * sizeof(Run) +
+                       static_cast<double>(blocks) * sizeof(std::size_t);
+  throw ExcessiveWork("the radius holds about " + rounded(per_point) + " candidates a point, " + rounded(pairs / 1e9) +
+                      " billion pairs: roughly " + rounded(pairs * kSecondsPerCandidate) + " s an iteration on one thread and " +
+                      rounded(bytes / 1e6) + " MB of lists; choose a smaller radius");
 }
 
 template <typename RadiusOfBlock>
@@ -81,16 +105,28 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
   std::vector<std::vector<Run>> runs(tasks);
   Neighborhoods result;
   result.query_count = queries.size;
+  result.absent = tree.size();
   result.run_offsets.assign(blocks + 1, 0);
   parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Run>& own = runs[begin / kBlocksPerTask];
     std::vector<Run> one;
-    for (std::size_t block = begin; block < end; ++block) {
-      one.clear();
-      const FloatBox box = blockBox(queries, block);
-      tree.collectRuns(box, reach(radius(block), box), one);
-      own.insert(own.end(), one.begin(), one.end());
-      result.run_offsets[block + 1] = one.size();
+    std::vector<std::uint32_t> groups;
+    for (std::size_t first = begin; first < end; first += kBlocksPerDescent) {
+      const std::size_t last = std::min(end, first + kBlocksPerDescent);
+      FloatBox boxes[kBlocksPerDescent];
+      float reaches[kBlocksPerDescent], longest = 0.0f;
+      for (std::size_t block = first; block < last; ++block) {
+        boxes[block - first] = blockBox(queries, block);
+        reaches[block - first] = reach(radius(block), boxes[block - first]);
+        longest = std::max(longest, reaches[block - first]);
+      }
+      tree.collectGroups(unite(boxes, last - first), longest, groups);
+      for (std::size_t block = first; block < last; ++block) {
+        one.clear();
+        tree.collectRuns(groups, boxes[block - first], reaches[block - first], one);
+        own.insert(own.end(), one.begin(), one.end());
+        result.run_offsets[block + 1] = one.size();
+      }
     }
   });
   for (std::size_t block = 0; block < blocks; ++block)
@@ -130,6 +166,7 @@ transposeLists(const NeighborLists& lists, std::size_t absent)
   const std::size_t blocks = (queries + kQueryBlock - 1) / kQueryBlock;
   Neighborhoods result;
   result.query_count = queries;
+  result.absent = absent;
   result.lane_offsets.assign(blocks + 1, 0);
   const auto rowSize = [&](std::size_t q) { return lists.offsets[q + 1] - lists.offsets[q]; };
   for (std::size_t block = 0; block < blocks; ++block) {

@@ -22,6 +22,7 @@ struct Neighborhoods {
   std::size_t query_count = 0;
   std::vector<std::size_t> run_offsets;  ///< blocks + 1
   std::vector<Run> runs;
+  std::size_t absent = 0;                ///< index of a padded datum, which is no neighbour of any query
 
   /** Foreign lists, transposed: entry (offset of block + k) * 16 + lane is the k-th candidate of that lane, `absent` when it has
    * fewer. Empty when runs are used. */

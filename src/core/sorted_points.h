@@ -3,6 +3,7 @@
 
 #include "kernels/kernels.h"
 
+#include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/soa_buffer.h>
 
 #include <cstdint>
@@ -53,19 +54,25 @@ private:
   }
 };
 
-/** \brief Copies `from` in the order of `order`, adding remainders if there are any. */
+/** \brief Copies `from` in the order of `order`, or as it is when that is empty, adding remainders if there are any. */
 template <typename Real>
 SortedVectors<Real>
-gather(VectorsView from, VectorsView remainders, const std::vector<std::uint32_t>& order, Real padding)
+gather(VectorsView from, VectorsView remainders, const std::vector<std::uint32_t>& order, Real padding, std::size_t threads = 1)
 {
-  SortedVectors<Real> to(order.size(), padding);
-  const auto one = [&](const float* values, const float* rest, AlignedArray<Real>& target) {
-    for (std::size_t i = 0; i < order.size(); ++i)
-      target[i] = static_cast<Real>(values[order[i]]) + (rest ? static_cast<Real>(rest[order[i]]) : Real(0));
+  constexpr std::size_t kPointsPerTask = 16384;
+  const std::size_t count = order.empty() ? from.size : order.size();
+  SortedVectors<Real> to(count, padding);
+  const auto one = [&](const float* values, const float* rest, AlignedArray<Real>& target, std::size_t i) {
+    const std::size_t place = order.empty() ? i : order[i];
+    target[i] = static_cast<Real>(values[place]) + (rest ? static_cast<Real>(rest[place]) : Real(0));
   };
-  one(from.x, remainders.x, to.x);
-  one(from.y, remainders.y, to.y);
-  one(from.z, remainders.z, to.z);
+  parallelBlocks(count, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      one(from.x, remainders.x, to.x, i);
+      one(from.y, remainders.y, to.y, i);
+      one(from.z, remainders.z, to.z, i);
+    }
+  });
   return to;
 }
 
@@ -74,8 +81,8 @@ inline kernels::Candidates
 candidatesOf(const Neighborhoods& neighborhoods)
 {
   if (neighborhoods.foreign())
-    return {neighborhoods.query_count, nullptr, nullptr, neighborhoods.lane_offsets.data(), neighborhoods.lanes.data()};
-  return {neighborhoods.query_count, neighborhoods.run_offsets.data(), neighborhoods.runs.data(), nullptr, nullptr};
+    return {neighborhoods.query_count, nullptr, nullptr, neighborhoods.absent, neighborhoods.lane_offsets.data(), neighborhoods.lanes.data()};
+  return {neighborhoods.query_count, neighborhoods.run_offsets.data(), neighborhoods.runs.data(), neighborhoods.absent, nullptr, nullptr};
 }
 
 /** Blocks of queries that one task takes: enough to hide its cost, few enough to balance. */

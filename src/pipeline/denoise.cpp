@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/operators/scale_selection.h>
+#include <pcl_gpf/core/parallel.h>
 
 #include "packed_cloud.h"
 
 #include <chrono>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace pcl_gpf {
 
@@ -21,6 +26,12 @@ public:
     return seconds;
   }
 
+  double
+  elapsed() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
+  }
+
 private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
@@ -30,9 +41,15 @@ estimateMissingNormals(const PlaneNormalsParameters& parameters, Packed& packed)
 {
   if (packed.missing_normals.empty())
     return;
+  std::vector<std::uint32_t> missing;
+  missing.swap(packed.missing_normals); // frees them, too
+  if (missing.size() == packed.rows.size()) {
+    estimatePlaneNormals(parameters, *packed.index, packed.normals.view());
+    return;
+  }
   SoaBuffer estimated(packed.rows.size());
   estimatePlaneNormals(parameters, *packed.index, estimated.view());
-  for (const std::uint32_t k : packed.missing_normals) {
+  for (const std::uint32_t k : missing) {
     packed.normals.x[k] = estimated.x[k];
     packed.normals.y[k] = estimated.y[k];
     packed.normals.z[k] = estimated.z[k];
@@ -51,72 +68,203 @@ toLocal(DenoiseParameters p, const LocalFrame& frame)
 }
 
 ProgressCallback
-stageOf(const char* name, const StageProgress& progress)
+stageOf(std::string name, const StageProgress& progress)
 {
   if (!progress)
     return {};
-  return [name, &progress](double fraction) { return progress(name, fraction); };
+  return [name = std::move(name), &progress](double fraction) { return progress(name, fraction); };
 }
 
-/** Everything before GPF: packs, estimates parameters, makes normals. */
+/** A stage of one of the scales, as the callback sees it. */
+std::string
+stageName(const char* stage, FilterScale filter_scale)
+{
+  return filter_scale == FilterScale::Fine ? std::string("fine ") + stage : stage;
+}
+
+/** Everything that does not depend on lengths: packs, measures. */
 Packed
-prepare(const DenoiseInput& input, DenoiseParameters& parameters, bool with_remainders, const StageProgress& progress,
-        DenoiseResult& result)
+prepare(const DenoiseInput& input, DenoiseParameters& parameters, bool with_remainders, CloudScale& scale, DenoiseResult& result)
+{
+  validate(parameters);
+  Packed packed = packPositions(input, with_remainders, parameters.number_of_threads);
+  result.non_finite_points = input.size - packed.rows.size();
+  parameters = toLocal(parameters, packed.frame);
+  scale = measureScale(*packed.index, parameters.number_of_threads);
+  result.scale = {packed.frame.lengthToWorld(scale.spacing), packed.frame.lengthToWorld(scale.noise),
+                  packed.frame.lengthToWorld(scale.diagonal), packed.frame.lengthToWorld(scale.h0)};
+  return packed;
+}
+
+/** Fills the lengths that are to be estimated and notes where they came from. */
+DenoiseParameters
+parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,
+             DenoiseResult& result)
+{
+  for (ParameterOrigin& origin : estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale)) {
+    origin.value = frame.lengthToWorld(origin.value);
+    origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
+    result.parameters.push_back(std::move(origin));
+  }
+  return parameters;
+}
+
+/** The normals that the input has, the others from plane fits, all of them filtered. */
+void
+makeNormals(const DenoiseInput& input, const DenoiseParameters& parameters, FilterScale filter_scale, Packed& packed,
+            const StageProgress& progress, DenoiseResult& result)
+{
+  Stopwatch watch;
+  if (progress && !progress(stageName("normals", filter_scale), 0.0))
+    throw Cancelled();
+  packNormals(input, packed);
+  result.estimated_normals = packed.missing_normals.size();
+  estimateMissingNormals(parameters.normals, packed);
+  result.seconds_normals += watch.lap();
+  filterNormalsBilaterally(parameters.bilateral, *packed.index, packed.normals.view(), {},
+                           stageOf(stageName("bilateral", filter_scale), progress));
+  result.seconds_bilateral += watch.lap();
+}
+
+/** GPF on the packed points and normals, which are given up. */
+FilteredCloud
+project(const GPFParameters& parameters, FilterScale filter_scale, const std::vector<std::uint32_t>& samples, Packed& packed,
+        const StageProgress& progress, std::vector<IterationStats>& iterations)
+{
+  GPFInput input;
+  input.index = packed.index.get();
+  if (runsInDouble(parameters))
+    input.remainders = packed.remainders.view();
+  input.normals = packed.normals.view();
+  input.samples = samples.empty() ? nullptr : samples.data();
+  input.sample_count = samples.size();
+  GPFState state = gpfInit(parameters, input);
+  packed.remainders = SoaBuffer(); // the state has its own
+  packed.normals = SoaBuffer();
+  iterations = gpfRun(state, stageOf(stageName("filter", filter_scale), progress));
+  for (IterationStats& stats : iterations) {
+    stats.mean_movement = packed.frame.lengthToWorld(stats.mean_movement);
+    stats.max_movement = packed.frame.lengthToWorld(stats.max_movement);
+  }
+  FilteredCloud cloud;
+  cloud.isolated = state.isolated();
+  cloud.normals = SoaBuffer(state.size());
+  state.normals(cloud.normals.view());
+  cloud.displacements = SoaBuffer(state.size());
+  state.displacements(cloud.displacements.view());
+  return cloud;
+}
+
+void
+copyVector(const SoaBuffer& from, SoaBuffer& to, std::size_t k)
+{
+  to.x[k] = from.x[k];
+  to.y[k] = from.y[k];
+  to.z[k] = from.z[k];
+}
+
+/** Takes the fine result where selectFineScale() says so. */
+void
+combine(const ScaleSelectionParameters& selection, const Packed& packed, FilteredCloud& coarse, const FilteredCloud& fine,
+        std::vector<std::uint8_t>& taken)
+{
+  const PointsView points = packed.index->sorted();
+  SoaBuffer positions(points.size);
+  for (std::size_t k = 0; k < points.size; ++k) {
+    positions.x[k] = points.x[k] + coarse.displacements.x[k];
+    positions.y[k] = points.y[k] + coarse.displacements.y[k];
+    positions.z[k] = points.z[k] + coarse.displacements.z[k];
+  }
+  taken = selectFineScale(selection, *packed.index, positions.view(), coarse.normals.view());
+  for (std::size_t k = 0; k < points.size; ++k) {
+    if (taken[k] == 0)
+      continue;
+    copyVector(fine.displacements, coarse.displacements, k);
+    copyVector(fine.normals, coarse.normals, k);
+    coarse.isolated[k] = fine.isolated[k];
+  }
+}
+
+/** Cuts longer moves to `longest`, normalised frame. \return their number */
+std::size_t
+limitMoves(double longest, SoaBuffer& moves)
+{
+  std::size_t limited = 0;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    const double x = moves.x[k], y = moves.y[k], z = moves.z[k];
+    const double length = std::sqrt(x * x + y * y + z * z);
+    if (!(length > longest))
+      continue;
+    const double share = longest / length * (1.0 - 1e-6); // rounding must not pass the limit
+    moves.x[k] = static_cast<float>(x * share);
+    moves.y[k] = static_cast<float>(y * share);
+    moves.z[k] = static_cast<float>(z * share);
+    ++limited;
+  }
+  return limited;
+}
+
+bool
+filtersTwoScales(const DenoiseParameters& p)
+{
+  const bool estimated = p.normals.radius == 0.0 && p.bilateral.radius == 0.0 && p.bilateral.neighbors == 0 && p.gpf.support_radius == 0.0;
+  return p.two_scales && estimated && !runsInDouble(p.gpf) && p.gpf.sample_ratio == 1.0 && p.gpf.repulsion_weight == 0.0;
+}
+
+/** Largest move in the normalised frame; infinity = no limit. */
+double
+longestMove(const DenoiseParameters& wanted, const CloudScale& scale, const LocalFrame& frame)
+{
+  constexpr double kNoises = 6.0;
+  if (wanted.max_move > 0.0)
+    return frame.lengthToLocal(wanted.max_move);
+  const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.support_radius == 0.0;
+  return estimated ? kNoises * scale.noise : std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+void
+validate(const DenoiseParameters& parameters)
 {
   validate(parameters.gpf);
   validate(parameters.bilateral);
   validate(parameters.normals);
-  Stopwatch watch;
-  Packed packed = packPositions(input, with_remainders, parameters.number_of_threads);
-  packNormals(input, packed);
-  result.non_finite_points = input.size - packed.rows.size();
-  result.estimated_normals = packed.missing_normals.size();
-
-  parameters = toLocal(parameters, packed.frame);
-  const CloudScale scale = measureScale(*packed.index, parameters.number_of_threads);
-  result.parameters = estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf);
-  for (ParameterOrigin& origin : result.parameters)
-    origin.value = packed.frame.lengthToWorld(origin.value);
-  result.scale = {packed.frame.lengthToWorld(scale.spacing), packed.frame.lengthToWorld(scale.noise),
-                  packed.frame.lengthToWorld(scale.diagonal), packed.frame.lengthToWorld(scale.h0)};
-
-  if (progress && !progress("normals", 0.0))
-    throw Cancelled();
-  estimateMissingNormals(parameters.normals, packed);
-  result.seconds_normals = watch.lap();
-  filterNormalsBilaterally(parameters.bilateral, *packed.index, packed.normals.view(), {}, stageOf("bilateral", progress));
-  result.seconds_bilateral = watch.lap();
-  return packed;
+  if (!(parameters.max_move >= 0.0))
+    throw InvalidParameter("max_move must be >= 0, 0 = estimated");
 }
-
-} // namespace
 
 DenoiseResult
 denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageProgress& progress)
 {
   DenoiseParameters parameters = wanted;
   DenoiseResult result;
-  const bool exact = runsInDouble(parameters.gpf);
-  Packed packed = prepare(input, parameters, exact, progress, result);
+  CloudScale scale;
   Stopwatch watch;
+  Packed packed = prepare(input, parameters, runsInDouble(parameters.gpf), scale, result);
+  result.seconds_normals = watch.lap();
   const std::vector<std::uint32_t> samples = drawSamples(parameters.gpf, packed);
-  GPFInput gpf_input;
-  gpf_input.index = packed.index.get();
-  if (exact)
-    gpf_input.remainders = packed.remainders.view();
-  gpf_input.normals = packed.normals.view();
-  gpf_input.samples = samples.empty() ? nullptr : samples.data();
-  gpf_input.sample_count = samples.size();
-  GPFState state = gpfInit(parameters.gpf, gpf_input);
-  packed.remainders = SoaBuffer(); // the state has its own
-  packed.normals = SoaBuffer();
-  result.iterations = gpfRun(state, stageOf("filter", progress));
-  for (IterationStats& stats : result.iterations) {
-    stats.mean_movement = packed.frame.lengthToWorld(stats.mean_movement);
-    stats.max_movement = packed.frame.lengthToWorld(stats.max_movement);
+  const bool two_scales = filtersTwoScales(parameters);
+  const auto filterAt = [&](FilterScale filter_scale, std::vector<IterationStats>& iterations, double& data_radius) {
+    const DenoiseParameters p = parametersAt(filter_scale, parameters, scale, packed.frame, result);
+    data_radius = 0.5 * p.gpf.support_radius;
+    makeNormals(input, p, filter_scale, packed, progress, result);
+    const Stopwatch filter_watch;
+    FilteredCloud cloud = project(p.gpf, filter_scale, samples, packed, progress, iterations);
+    result.seconds_filter += filter_watch.elapsed();
+    return cloud;
+  };
+  ScaleSelectionParameters selection{scale.noise, scale.spacing, 0.0, 0.0, parameters.number_of_threads};
+  FilteredCloud cloud = filterAt(two_scales ? FilterScale::Coarse : FilterScale::Single, result.iterations, selection.coarse_radius);
+  watch.lap();
+  if (two_scales && scale.spacing > 0.0) {
+    const FilteredCloud fine = filterAt(FilterScale::Fine, result.fine_iterations, selection.fine_radius);
+    watch.lap();
+    combine(selection, packed, cloud, fine, result.fine);
   }
-  unpack(input, packed, state, samples, result);
-  result.seconds_filter = watch.lap();
+  result.limited_points = limitMoves(longestMove(wanted, scale, packed.frame), cloud.displacements);
+  unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);
+  result.seconds_filter += watch.lap();
   return result;
 }
 
@@ -125,7 +273,10 @@ denoiseNormals(const DenoiseInput& input, const DenoiseParameters& wanted, const
 {
   DenoiseParameters parameters = wanted;
   DenoiseResult result;
-  const Packed packed = prepare(input, parameters, false, progress, result);
+  CloudScale scale;
+  Packed packed = prepare(input, parameters, false, scale, result);
+  const DenoiseParameters p = parametersAt(FilterScale::Single, parameters, scale, packed.frame, result);
+  makeNormals(input, p, FilterScale::Single, packed, progress, result);
   const float missing = std::numeric_limits<float>::quiet_NaN();
   const auto spread = [&](const AlignedArray<float>& from, std::vector<float>& to) {
     to.assign(input.size, missing);

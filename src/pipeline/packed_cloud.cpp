@@ -3,17 +3,20 @@
 
 #include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/sampling.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
+#include <utility>
 
 namespace pcl_gpf {
 
 namespace {
+
+constexpr std::size_t kPointsPerTask = 16384;
 
 /** Ascending finite rows and the frame of their box. \throws UnsuitableData */
 std::vector<std::uint32_t>
@@ -45,7 +48,8 @@ Packed
 packPositions(const DenoiseInput& input, bool with_remainders, unsigned number_of_threads)
 {
   Packed packed;
-  const std::vector<std::uint32_t> rows = finiteRows(input, packed.frame);
+  const std::size_t threads = resolveThreads(number_of_threads);
+  std::vector<std::uint32_t> rows = finiteRows(input, packed.frame);
   const double* columns[3] = {input.x, input.y, input.z};
   const auto local = [&](std::size_t axis, std::uint32_t row) {
     return (columns[axis][row] - packed.frame.origin[axis]) / packed.frame.scale;
@@ -53,9 +57,11 @@ packPositions(const DenoiseInput& input, bool with_remainders, unsigned number_o
   {
     SoaBuffer points(rows.size());
     AlignedArray<float>* axes[3] = {&points.x, &points.y, &points.z};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t k = 0; k < rows.size(); ++k)
-        (*axes[axis])[k] = static_cast<float>(local(axis, rows[k]));
+    parallelBlocks(rows.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t k = begin; k < end; ++k)
+          (*axes[axis])[k] = static_cast<float>(local(axis, rows[k]));
+    });
     packed.index = std::make_unique<PointIndex>(points.view(), number_of_threads);
   }
   packed.rows.resize(rows.size());
@@ -111,47 +117,45 @@ drawSamples(const GPFParameters& gpf, const Packed& packed)
 }
 
 void
-unpack(const DenoiseInput& input, const Packed& packed, const GPFState& state, const std::vector<std::uint32_t>& samples,
+unpack(const DenoiseInput& input, Packed packed, FilteredCloud cloud, const std::vector<std::uint32_t>& samples, std::size_t threads,
        DenoiseResult& result)
 {
-  const std::size_t count = state.size();
-  // Place of each output point among the recursion's results: samples are ascending already; all points follow the index.
-  std::vector<std::uint32_t> from(count);
-  if (samples.empty())
-    for (std::size_t k = 0; k < count; ++k)
-      from[packed.index->order()[k]] = static_cast<std::uint32_t>(k);
-  else
-    std::iota(from.begin(), from.end(), std::uint32_t{0});
+  const std::size_t count = cloud.displacements.size();
+  const auto forEach = [&](const auto& body) {
+    parallelBlocks(count, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        body(k);
+    });
+  };
+  // Place of each of the recursion's results in the output: samples are ascending already; all points follow the index.
+  const auto placeOf = [&](std::size_t k) { return samples.empty() ? packed.index->order()[k] : k; };
   result.sample_indices.resize(count);
-  for (std::size_t k = 0; k < count; ++k)
-    result.sample_indices[k] = packed.rows[samples.empty() ? from[k] : samples[k]];
+  forEach([&](std::size_t k) { result.sample_indices[placeOf(k)] = packed.rows[samples.empty() ? k : samples[k]]; });
+  const auto take = [&](const auto& values, auto& to) {
+    to.resize(count);
+    forEach([&](std::size_t k) { to[placeOf(k)] = values[k]; });
+  };
+  take(cloud.isolated, result.isolated);
+  if (!result.fine.empty())
+    take(std::vector<std::uint8_t>(result.fine), result.fine);
+  take(cloud.normals.x, result.normal_x);
+  take(cloud.normals.y, result.normal_y);
+  take(cloud.normals.z, result.normal_z);
+  cloud.normals = SoaBuffer();
 
-  const std::vector<std::uint8_t> isolated = state.isolated();
-  result.isolated.resize(count);
-  SoaBuffer vectors(count);
-  state.normals(vectors.view());
-  const auto take = [&](const AlignedArray<float>& values, std::vector<float>& to) {
+  const auto move = [&](const double* start, AlignedArray<float>& moves, std::vector<double>& to) {
     to.resize(count);
-    for (std::size_t k = 0; k < count; ++k)
-      to[k] = values[from[k]];
+    forEach([&](std::size_t k) {
+      const std::size_t place = placeOf(k);
+      to[place] = start[result.sample_indices[place]];
+      if (moves[k] != 0.0f) // adding 0 would turn -0 into 0
+        to[place] += packed.frame.lengthToWorld(static_cast<double>(moves[k]));
+    });
+    moves = AlignedArray<float>();
   };
-  take(vectors.x, result.normal_x);
-  take(vectors.y, result.normal_y);
-  take(vectors.z, result.normal_z);
-  state.displacements(vectors.view());
-  const auto move = [&](const double* start, const AlignedArray<float>& moves, std::vector<double>& to) {
-    to.resize(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      to[k] = start[result.sample_indices[k]];
-      if (moves[from[k]] != 0.0f) // adding 0 would turn -0 into 0
-        to[k] += packed.frame.lengthToWorld(static_cast<double>(moves[from[k]]));
-    }
-  };
-  move(input.x, vectors.x, result.x);
-  move(input.y, vectors.y, result.y);
-  move(input.z, vectors.z, result.z);
-  for (std::size_t k = 0; k < count; ++k)
-    result.isolated[k] = isolated[from[k]];
+  move(input.x, cloud.displacements.x, result.x);
+  move(input.y, cloud.displacements.y, result.y);
+  move(input.z, cloud.displacements.z, result.z);
 }
 
 } // namespace pcl_gpf

@@ -23,6 +23,12 @@ struct Packed {
   std::vector<std::uint32_t> missing_normals; ///< sorted places
 };
 
+/** What a filter made of the packed points, in sorted order (of samples: as drawn). */
+struct FilteredCloud {
+  SoaBuffer displacements, normals;
+  std::vector<std::uint8_t> isolated;
+};
+
 /** \throws UnsuitableData if nothing is finite or everything coincides */
 Packed
 packPositions(const DenoiseInput& input, bool with_remainders, unsigned number_of_threads);
@@ -35,9 +41,9 @@ packNormals(const DenoiseInput& input, Packed& packed);
 std::vector<std::uint32_t>
 drawSamples(const GPFParameters& gpf, const Packed& packed);
 
-/** Results of the recursion in ascending order of input rows. */
+/** Results in ascending order of input rows; both clouds are given up, so that the result takes their room. */
 void
-unpack(const DenoiseInput& input, const Packed& packed, const GPFState& state, const std::vector<std::uint32_t>& samples,
+unpack(const DenoiseInput& input, Packed packed, FilteredCloud cloud, const std::vector<std::uint32_t>& samples, std::size_t threads,
        DenoiseResult& result);
 
 } // namespace pcl_gpf

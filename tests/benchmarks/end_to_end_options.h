@@ -2,11 +2,12 @@
 #pragma once
 
 #include "models.h"
+#include "option_values.h"
 
+#include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/pipeline/denoise.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,9 +19,13 @@ namespace pcl_gpf::benchmark_options {
 
 constexpr const char* kUsage =
     R"(usage: end_to_end [--sizes N,N,...] [--threads N] [--repeat N] [--model block|cube|sphere] [--noise PERCENT]
-                  [--iterations N] [--rounds N] [--samples RATIO] [--preset default|paper] [--csv]
+                  [--iterations N] [--rounds N] [--samples RATIO] [--preset default|paper] [--neighbors K]
+                  [--slope] [--threads-compare] [--csv]
 Prints the median seconds of each stage, nanoseconds per pair of an input and a projected point within h/2 and iteration
 (filter stage), and the peak memory above the input (result included) in bytes a point. CPU s: all threads together.
+  --neighbors K      every ball of the chain gets the radius that holds K points on average, at each size anew
+  --slope            then the slope of log seconds over log points (least squares over all sizes)
+  --threads-compare  then, for each size, one thread against --threads, run in turn
 )";
 
 struct Options {
@@ -33,18 +38,51 @@ struct Options {
   unsigned iterations = 0; ///< 0: the preset's
   int rounds = -1;         ///< of the bilateral filter; -1: the default
   double samples = 0.0;    ///< 0: the preset's
+  double neighbors = 0.0;  ///< 0: estimated lengths
+  bool slope = false;
+  bool threads_compare = false;
   bool csv = false;
 };
 
-template <typename T>
-T
-number(const std::string& text)
+/** \return whether `name` is an option without a value */
+inline bool
+setFlag(Options& o, const std::string& name)
 {
-  T value{};
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size())
-    throw std::invalid_argument("\"" + text + "\" is not a number of the kind wanted");
-  return value;
+  bool* const flag = name == "--csv"               ? &o.csv
+                     : name == "--slope"           ? &o.slope
+                     : name == "--threads-compare" ? &o.threads_compare
+                                                   : nullptr;
+  if (flag)
+    *flag = true;
+  return flag != nullptr;
+}
+
+inline void
+setValue(Options& o, const std::string& name, const std::string& value)
+{
+  if (name == "--sizes")
+    o.sizes = sizes(value);
+  else if (name == "--threads")
+    o.threads = number<unsigned>(value);
+  else if (name == "--repeat")
+    o.repeat = std::max(1u, number<unsigned>(value));
+  else if (name == "--model") {
+    benchmark_models::makeModel(value, 0, 0.0); // refuses unknown names
+    o.model = value;
+  } else if (name == "--noise")
+    o.noise = number<double>(value);
+  else if (name == "--iterations")
+    o.iterations = number<unsigned>(value);
+  else if (name == "--rounds")
+    o.rounds = number<int>(value);
+  else if (name == "--samples")
+    o.samples = number<double>(value);
+  else if (name == "--neighbors")
+    o.neighbors = number<double>(value);
+  else if (name == "--preset" && (value == "default" || value == "paper"))
+    o.preset = value;
+  else
+    throw std::invalid_argument("unknown option or value: " + name + " " + value);
 }
 
 inline Options
@@ -53,41 +91,16 @@ parse(int argc, char** argv)
   Options o;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
-    if (name == "--csv") {
-      o.csv = true;
+    if (setFlag(o, name))
       continue;
-    }
     if (i + 1 == argc)
       throw std::invalid_argument(name + " is unknown or lacks its value");
-    const std::string value = argv[++i];
-    if (name == "--sizes") {
-      o.sizes.clear();
-      for (std::size_t begin = 0; begin <= value.size();) {
-        const std::size_t end = std::min(value.find(',', begin), value.size());
-        o.sizes.push_back(number<std::size_t>(value.substr(begin, end - begin)));
-        begin = end + 1;
-      }
-    } else if (name == "--threads")
-      o.threads = number<unsigned>(value);
-    else if (name == "--repeat")
-      o.repeat = std::max(1u, number<unsigned>(value));
-    else if (name == "--model") {
-      benchmark_models::makeModel(value, 0, 0.0); // refuses unknown names
-      o.model = value;
-    }
-    else if (name == "--noise")
-      o.noise = number<double>(value);
-    else if (name == "--iterations")
-      o.iterations = number<unsigned>(value);
-    else if (name == "--rounds")
-      o.rounds = number<int>(value);
-    else if (name == "--samples")
-      o.samples = number<double>(value);
-    else if (name == "--preset" && (value == "default" || value == "paper"))
-      o.preset = value;
-    else
-      throw std::invalid_argument("unknown option or value: " + name + " " + value);
+    setValue(o, name, argv[++i]);
   }
+  if (o.slope && std::all_of(o.sizes.begin(), o.sizes.end(), [&](std::size_t size) { return size == o.sizes.front(); }))
+    throw std::invalid_argument("--slope needs at least two different sizes");
+  if (o.threads_compare && resolveThreads(o.threads) < 2)
+    throw std::invalid_argument("--threads-compare needs at least two threads");
   return o;
 }
 

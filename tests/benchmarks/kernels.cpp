@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernel_scene.h"
+#include "ideal_kernels.h"
+#include "kernel_arguments.h"
+#include "kernel_operations.h"
+#include "kernel_report.h"
 
 #include "core/kernels/kernels.h"
 
@@ -8,21 +11,37 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 /** \file
- * \brief Nanoseconds per in-radius pair of each kernel on each instruction set, on one thread and a noisy block that fits the caches.
+ * \brief Nanoseconds per in-radius pair of each kernel on each instruction set, on one thread and a noisy block that fits the caches,
+ * beside the same arithmetic without radius, candidates and neighbour structure (ideal_kernels.h).
  */
 namespace {
 
 using namespace pcl_gpf;
+using namespace pcl_gpf::benchmark_arguments;
 using namespace pcl_gpf::benchmark_scene;
+using benchmark::Counter;
 using benchmark::State;
 
-/** Repeats the kernel over all queries and reports per pair. */
+const Counter::Flags kTimePerUnit = Counter::kIsIterationInvariantRate | Counter::kInvert;
+
+template <typename Arguments>
+using Kernel = void (*)(const kernels::Candidates&, const Arguments&, std::size_t, std::size_t);
+
+void
+countPairs(State& state, double pairs, int operations)
+{
+  state.counters["pair"] = Counter(pairs, kTimePerUnit);
+  state.counters["FLOP/s"] = Counter(pairs * operations, Counter::kIsIterationInvariantRate);
+}
+
+/** Repeats the kernel over all queries and reports per in-radius pair. */
 template <typename Real, typename Arguments>
 void
-loop(State& state, void (*kernel)(const kernels::Candidates&, const Arguments&, std::size_t, std::size_t), const Arguments& arguments)
+realLoop(State& state, Kernel<Arguments> kernel, const Arguments& arguments, int operations)
 {
   const Scene<Real>& s = scene<Real>();
   const kernels::Candidates candidates = candidatesOf(s.near);
@@ -30,126 +49,65 @@ loop(State& state, void (*kernel)(const kernels::Candidates&, const Arguments&, 
     kernel(candidates, arguments, 0, blockCount(kPoints));
     benchmark::ClobberMemory();
   }
-  const auto time_per_unit = benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert;
-  state.counters["pair"] = benchmark::Counter(s.pairs, time_per_unit);
-  state.counters["candidate"] = benchmark::Counter(s.candidates, time_per_unit);
+  countPairs(state, s.pairs, operations);
+  state.counters["candidate"] = Counter(s.candidates, kTimePerUnit);
   state.counters["candidates/pair"] = s.candidates / s.pairs;
 }
 
-template <typename Real>
-kernels::Radius<Real>
-radius()
-{
-  const double r = scene<Real>().radius;
-  return {static_cast<Real>(r * r), nullptr};
-}
-
-template <typename Real>
-kernels::GaussianSums<Real>
-gaussianSums(Sums<Real>& out)
-{
-  kernels::GaussianSums<Real> a;
-  a.queries = a.data = scene<Real>().points.vectors();
-  a.radius = radius<Real>();
-  a.falloff = 1;
-  a.out = out.one();
-  return a;
-}
-
-/** \param[in] paper Algorithm 1's term with the sums of eq. 11, else the default mode's */
-template <typename Real>
-kernels::Projection<Real>
-projection(Sums<Real>& out, bool paper)
-{
-  const Scene<Real>& s = scene<Real>();
-  kernels::Projection<Real> a;
-  a.queries = a.data = s.points.vectors();
-  a.query_normals = a.data_normals = s.normals.vectors();
-  a.radius = radius<Real>();
-  a.falloff = Real(0.5);
-  a.symmetric = a.normal_weights = !paper;
-  a.symmetry_falloff = Real(7.46);
-  a.normal_falloff = Real(3.41);
-  a.normal_floor = Real(0.15);
-  a.weight_sum = out.one();
-  a.pull = out.three();
-  a.variance = paper;
-  if (paper) {
-    a.data_weight = a.data_density = s.ones.data();
-    a.posterior_sum = out.one();
-    a.residual_sq = out.one();
-    a.cross = out.three();
-    a.scatter_diagonal = out.three();
-    a.scatter_mixed = out.three();
-  }
-  return a;
-}
-
-template <typename Real>
-kernels::Repulsion<Real>
-repulsion(Sums<Real>& out)
-{
-  const Scene<Real>& s = scene<Real>();
-  kernels::Repulsion<Real> a;
-  a.queries = a.data = s.points.vectors();
-  a.data_normals = s.normals.vectors();
-  a.radius = radius<Real>();
-  a.falloff = 4;
-  a.shortest = Real(1e-6);
-  a.push = out.three();
-  a.weight_sum = out.one();
-  return a;
-}
-
-kernels::BilateralNormals
-bilateralNormals(Sums<float>& out)
-{
-  const Scene<float>& s = scene<float>();
-  kernels::BilateralNormals a;
-  a.queries = a.data = s.points.vectors();
-  a.query_normals = a.data_normals = s.normals.vectors();
-  a.radius = radius<float>();
-  a.angle_falloff = 7.46f;
-  a.out = out.three();
-  return a;
-}
-
-kernels::Moments
-moments(Sums<float>& out)
-{
-  kernels::Moments a;
-  a.queries = a.data = scene<float>().points.vectors();
-  a.radius = radius<float>();
-  a.count = out.one();
-  a.mean = out.three();
-  a.scatter_diagonal = out.three();
-  a.scatter_mixed = out.three();
-  return a;
-}
-
-template <typename Real, typename Kernel, typename Make>
+/** Repeats the ideal loop over the first points of the scene, which then stay in the first cache. */
+template <typename Arguments>
 void
-add(const std::string& name, Kernel kernel, const Make& make)
+idealLoop(State& state, ideal::Loop<Arguments> loop, Arguments arguments, int operations)
 {
-  benchmark::RegisterBenchmark(name.c_str(), [kernel, make](State& state) {
+  constexpr std::size_t kPasses = 64;
+  arguments.radius.radius_sq = kEverywhere;
+  for (auto _ : state) {
+    loop(arguments, kIdealData, kPasses);
+    benchmark::ClobberMemory();
+  }
+  countPairs(state, static_cast<double>(kQueryBlock * kIdealData * kPasses), operations);
+}
+
+/** Registers a kernel and, beside it, its ideal loop. \param[in] make arguments, whose output arrays live in the given Sums */
+template <typename Real, typename Arguments>
+void
+add(benchmark_report::RatioReporter& reporter,
+    const std::string& name,
+    int operations,
+    Kernel<Arguments> kernel,
+    ideal::Loop<Arguments> loop,
+    Arguments (*make)(Sums<Real>&))
+{
+  reporter.add(name, operations);
+  benchmark::RegisterBenchmark(name.c_str(), [=](State& state) {
     Sums<Real> out;
-    loop<Real>(state, kernel, make(out));
+    realLoop<Real>(state, kernel, make(out), operations);
+  })->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(reporter.idealName(name).c_str(), [=](State& state) {
+    Sums<Real> out;
+    idealLoop(state, loop, make(out), operations);
   })->Unit(benchmark::kMillisecond);
 }
 
 void
-addAll(const kernels::KernelTarget& target)
+addAll(benchmark_report::RatioReporter& reporter, const kernels::KernelTarget& target)
 {
+  using namespace benchmark_operations;
   const kernels::KernelSet& set = *target.set;
-  const std::string suffix = std::string("/") + target.name;
-  add<float>("projection_default" + suffix, set.projection_float, [](Sums<float>& out) { return projection<float>(out, false); });
-  add<float>("bilateral_normals" + suffix, set.bilateral_normals, bilateralNormals);
-  add<float>("moments" + suffix, set.moments, moments);
-  add<float>("gaussian_sums" + suffix, set.gaussian_sums_float, gaussianSums<float>);
-  add<float>("repulsion" + suffix, set.repulsion_float, repulsion<float>);
-  add<double>("projection_paper_double" + suffix, set.projection_double, [](Sums<double>& out) { return projection<double>(out, true); });
-  add<double>("gaussian_sums_double" + suffix, set.gaussian_sums_double, gaussianSums<double>);
-  add<double>("repulsion_double" + suffix, set.repulsion_double, repulsion<double>);
+  const ideal::LoopSet* loops = ideal::loops(target.bit);
+  if (!loops)
+    throw std::logic_error(std::string("no ideal loops for ") + target.name);
+  const std::string end = std::string("/") + target.name;
+  add(reporter, "projection_default" + end, kProjectionDefault, set.projection_float, loops->projection_default, defaultProjection);
+  add(reporter, "bilateral_normals" + end, kBilateralNormals, set.bilateral_normals, loops->bilateral_normals, bilateralNormals);
+  add(reporter, "moments" + end, kMoments, set.moments, loops->moments, moments);
+  add(reporter, "gaussian_sums" + end, kGaussianSums, set.gaussian_sums_float, loops->gaussian_sums, gaussianSums<float>);
+  add(reporter, "repulsion" + end, kRepulsion, set.repulsion_float, loops->repulsion, repulsion<float>);
+  add(reporter, "projection_paper_double" + end, kProjectionPaperDouble, set.projection_double, loops->projection_paper_double,
+      paperProjection);
+  add(reporter, "gaussian_sums_double" + end, kGaussianSumsDouble, set.gaussian_sums_double, loops->gaussian_sums_double,
+      gaussianSums<double>);
+  add(reporter, "repulsion_double" + end, kRepulsionDouble, set.repulsion_double, loops->repulsion_double, repulsion<double>);
 }
 
 } // namespace
@@ -160,13 +118,14 @@ main(int argc, char** argv)
   const auto available = availableSimdTargets();
   std::size_t count = 0;
   const kernels::KernelTarget* built = kernels::builtTargets(&count);
+  benchmark_report::RatioReporter reporter;
   for (std::size_t i = 0; i < count; ++i)
     if (std::find(available.begin(), available.end(), built[i].name) != available.end())
-      addAll(built[i]);
+      addAll(reporter, built[i]);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv))
     return 2;
-  benchmark::RunSpecifiedBenchmarks();
+  benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
   return 0;
 }

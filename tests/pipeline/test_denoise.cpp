@@ -146,8 +146,9 @@ TEST(Denoise, keepsEveryPointInOrderByDefault)
   ASSERT_EQ(result.x.size(), cloud.size());
   EXPECT_EQ(result.non_finite_points, 0u);
   EXPECT_EQ(result.estimated_normals, cloud.size());
-  EXPECT_EQ(result.parameters.size(), 3u);
+  EXPECT_EQ(result.parameters.size(), 6u); // three lengths of each scale
   EXPECT_FALSE(result.iterations.empty());
+  EXPECT_EQ(result.fine.size(), cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     ASSERT_EQ(result.sample_indices[i], i);
     ASSERT_LT(distance(at(result, i), {cloud.x[i], cloud.y[i], cloud.z[i]}), 0.2);

@@ -63,22 +63,6 @@ blockField(const Vector3& p)
   return std::hypot(std::max(x, 0.0), std::max(y, 0.0), std::max(z, 0.0)) + std::min(std::max({x, y, z}), 0.0);
 }
 
-/** \brief Torus sampled evenly, with exact normals, as torusField(). */
-inline Shape
-torus(std::size_t count, double noise = 0, std::uint64_t seed = 1)
-{
-  return sampleShape(count, noise, seed, [](SplitMix64& random, Vector3& point, Vector3& normal) {
-    constexpr double kTurn = 6.283185307179586, kLarge = 0.35, kSmall = 0.13;
-    double v = 0;
-    do // area is proportional to the distance from the axis
-      v = kTurn * random.uniform();
-    while (random.uniform() * (kLarge + kSmall) > kLarge + kSmall * std::cos(v));
-    const double u = kTurn * random.uniform();
-    normal = {std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v)};
-    point = {(kLarge + kSmall * std::cos(v)) * std::cos(u), (kLarge + kSmall * std::cos(v)) * std::sin(u), kSmall * std::sin(v)};
-  });
-}
-
 /** \brief The box of blockField(), sampled evenly, with exact normals. */
 inline Shape
 block(std::size_t count, double noise = 0, std::uint64_t seed = 1)

@@ -15,6 +15,7 @@ struct LiteralDefaultGPF {
   GPFParameters p;
   const std::vector<Vector3>& v;
   const std::vector<Vector3>& b;
+  const AlignedArray<float>* data_weights = nullptr; ///< of the data; null: 1
 
   /** \brief Displacement of the sample at x[m] with normal n[m]. `undecided` is set when rounding to float leaves open whether a
    * pair is within a radius. */
@@ -58,7 +59,7 @@ private:
       const double turn = 1 - std::abs(dot(b[k], n)); // 1 - cos of the angle between the planes
       const double floor = p.normal_weight_floor;
       const double weight =
-          std::exp(-r * r / (2 * variance)) * (floor + (1 - floor) * bell(turn / oneMinusCosine(p.normal_angle)));
+          (data_weights ? static_cast<double>((*data_weights)[k]) : 1.0) * std::exp(-r * r / (2 * variance)) * (floor + (1 - floor) * bell(turn / oneMinusCosine(p.normal_angle)));
       const double share = p.data_term == DataTerm::Symmetric ? 0.5 * bell(turn / oneMinusCosine(30)) : 0;
       for (std::size_t i = 0; i < 3; ++i)
         sum[i] += weight * ((1 - share) * dot(d, b[k]) * b[k][i] + share * dot(d, n) * n[i]);

@@ -24,7 +24,7 @@ struct Shape {
 
 /** \brief Makes a sample of a surface from random numbers. */
 template <typename Sampler> Shape
-sampleShape(std::size_t count, double noise, std::uint64_t seed, const Sampler& sampler)
+sampleShape(std::size_t count, double noise, std::uint64_t seed, Sampler sampler)
 {
   Shape shape;
   SplitMix64 random(seed);
@@ -74,6 +74,51 @@ sphere(std::size_t count, double noise = 0, std::uint64_t seed = 1)
       normal[axis] /= length;
       point[axis] = 0.5 * normal[axis];
     }
+  });
+}
+
+/** \brief Torus about the z axis: the centre of its tube, of radius 0.35, runs at distance 1. */
+inline Shape
+torus(std::size_t count, double noise = 0, std::uint64_t seed = 1)
+{
+  return sampleShape(count, noise, seed, [](SplitMix64& random, Vector3& point, Vector3& normal) {
+    constexpr double kTube = 0.35, kTwoPi = 6.28318530717958647692;
+    const double around = kTwoPi * random.uniform();
+    double across = 0;
+    do // by area: the outside of the tube has more of it
+      across = kTwoPi * random.uniform();
+    while (random.uniform() * (1 + kTube) > 1 + kTube * std::cos(across));
+    normal = {std::cos(around) * std::cos(across), std::sin(around) * std::cos(across), std::sin(across)};
+    point = {std::cos(around) + kTube * normal[0], std::sin(around) + kTube * normal[1], kTube * normal[2]};
+  });
+}
+
+/** \brief Two unit squares at z = 0 and z = `gap`. */
+inline Shape
+sheets(std::size_t count, double gap, double noise = 0, std::uint64_t seed = 1)
+{
+  return sampleShape(count, noise, seed, [gap](SplitMix64& random, Vector3& point, Vector3& normal) {
+    const bool upper = random.below(2) == 1;
+    point = {random.uniform(), random.uniform(), upper ? gap : 0};
+    normal = {0, 0, upper ? 1.0 : -1.0};
+  });
+}
+
+/** \brief A wavy unit square in scan lines along x, five times as far apart as the steps along them. */
+inline Shape
+scanLines(std::size_t count, double noise = 0, std::uint64_t seed = 1)
+{
+  const auto lines = static_cast<std::size_t>(std::sqrt(static_cast<double>(count) / 5));
+  std::size_t i = 0;
+  return sampleShape(count, noise, seed, [lines, count, i](SplitMix64&, Vector3& point, Vector3& normal) mutable {
+    const double x = static_cast<double>(i / lines) * static_cast<double>(lines) / static_cast<double>(count);
+    const double y = static_cast<double>(i % lines) / static_cast<double>(lines);
+    point = {x, y, 0.2 * std::cos(3 * x) * std::cos(3 * y)};
+    normal = {0.6 * std::sin(3 * x) * std::cos(3 * y), 0.6 * std::cos(3 * x) * std::sin(3 * y), 1};
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    for (double& coordinate : normal)
+      coordinate /= length;
+    ++i;
   });
 }
 

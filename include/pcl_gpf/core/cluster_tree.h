@@ -24,6 +24,14 @@ struct FloatBox {
   std::array<float, 3> max;
 };
 
+/** \brief Boxes of the 8 children of one node, structure of arrays so that one comparison tests all; those that are not there are
+ * empty. */
+struct BoxPack {
+  static constexpr std::size_t kBoxes = 8;
+  float min[3][kBoxes];
+  float max[3][kBoxes];
+};
+
 /** \brief Consecutive points [begin, end) of a sorted array. */
 struct Run {
   std::uint32_t begin;
@@ -39,7 +47,7 @@ struct Run {
 class PCL_GPF_CORE_EXPORT ClusterTree {
 public:
   static constexpr std::size_t kClusterSize = 8;
-  static constexpr std::size_t kFanout = 8;
+  static constexpr std::size_t kFanout = BoxPack::kBoxes;
 
   /** \brief Computes all boxes from positions in sorted order. Positions may have been moved since they were sorted: results stay
    * exact, only candidate lists grow. With `radii` (one a point) the boxes enclose balls: collectRuns() with radius 0 then finds
@@ -50,6 +58,15 @@ public:
   /** \brief Appends the runs of points whose cluster boxes come within `radius` of `box`, ascending, adjacent runs merged. */
   void
   collectRuns(const FloatBox& box, float radius, std::vector<Run>& runs) const;
+
+  /** \brief Groups of 8 clusters whose boxes come within `radius` of `box`, ascending: where collectRuns() may begin for boxes
+   * inside this one. */
+  void
+  collectGroups(const FloatBox& box, float radius, std::vector<std::uint32_t>& groups) const;
+
+  /** \brief The same runs found among `groups`. */
+  void
+  collectRuns(const std::vector<std::uint32_t>& groups, const FloatBox& box, float radius, std::vector<Run>& runs) const;
 
   /** \brief Squared distances of the k nearest points of `sorted` (as given to fit()) to a position, ascending; fewer if the
    * tree has fewer points. `indices`, when not null, receives their sorted positions. Ties: any. */
@@ -70,15 +87,7 @@ public:
   bounds() const;
 
 private:
-  /** Boxes of the 8 children of one node, structure of arrays so that one comparison tests all. */
-  struct Pack {
-    float min[3][kFanout];
-    float max[3][kFanout];
-  };
-  using Level = std::vector<Pack>;
-
-  void
-  descend(std::size_t level, std::size_t pack, const FloatBox& box, float radius_sq, std::vector<Run>& runs) const;
+  using Level = std::vector<BoxPack>;
 
   std::vector<Level> levels_; ///< levels_[0]: boxes of clusters; the last level has one pack
   std::size_t size_ = 0;

@@ -22,8 +22,21 @@ struct DenoiseParameters {
   PlaneNormalsParameters normals;
   BilateralNormalsParameters bilateral;
   GPFParameters gpf;
+
+  /** Filter at two scales and take at each point the coarse result, or the fine one where the coarse one took detail away
+   * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals; otherwise one scale. */
+  bool two_scales = true;
+
+  /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
+   * stays as it is. Infinity = no limit. Not applied to the paper's recursion unless it is set. */
+  double max_move = 0.0;
+
   unsigned number_of_threads = 0; ///< for all three; 0 = all that the process may use
 };
+
+/** \brief Checks every range. \throws InvalidParameter */
+PCL_GPF_EXPORT void
+validate(const DenoiseParameters& parameters);
 
 /** \brief Coordinates in double, N values each, any may be NaN; and normals, N floats each or empty. */
 struct DenoiseInput {
@@ -42,10 +55,13 @@ struct DenoiseResult {
   std::vector<float> normal_x, normal_y, normal_z;
   std::vector<std::uint32_t> sample_indices; ///< row of the input that seeded each output point, ascending
   std::vector<std::uint8_t> isolated;        ///< 1 = no data in reach but the point itself: nothing filtered it
+  std::vector<std::uint8_t> fine;            ///< 1 = the fine scale's result was taken; empty when one scale was filtered
+  std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
 
   CloudScale scale;                          ///< of the input, cloud units
   std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units
   std::vector<IterationStats> iterations;    ///< of GPF; variance in the normalised frame, movements in cloud units
+  std::vector<IterationStats> fine_iterations; ///< the same at the fine scale
   std::size_t non_finite_points = 0;
   std::size_t estimated_normals = 0;         ///< normals that the input did not have
   double seconds_normals = 0;
@@ -53,7 +69,7 @@ struct DenoiseResult {
   double seconds_filter = 0;
 };
 
-/** \brief Called with the stage ("normals", "bilateral", "filter") and its fraction done; return false to cancel. */
+/** \brief Called with the stage ("normals", "bilateral", "filter", then "fine normals", ... where two scales are filtered) and its fraction done; return false to cancel. */
 using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
 
 /** \brief Filters a cloud given in double coordinates, every finite point by default; rows that are not finite are left out.

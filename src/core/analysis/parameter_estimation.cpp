@@ -4,6 +4,8 @@
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/local_frame.h>
 
+#include "../check_range.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,13 +13,33 @@ namespace pcl_gpf {
 
 namespace {
 
-/** The larger of `noises` times the noise and `spacings` times the spacing, and which of the two it was. */
-ParameterOrigin
-lengthFromScale(const char* name, const CloudScale& scale, double noises, const char* noise_reason, double spacings,
-                const char* spacing_reason)
+/** A length as multiples of the noise and, at least, of the spacing. */
+struct LengthRule {
+  double noises, spacings;
+};
+struct ScaleRules {
+  LengthRule normals, bilateral, support;
+};
+
+/** Why these: docs/gpf.md, "Where the estimated lengths come from". */
+ScaleRules
+rulesOf(FilterScale filter_scale)
 {
-  const bool noisy = noises * scale.noise > spacings * scale.spacing;
-  return {name, noisy ? noises * scale.noise : spacings * scale.spacing, "estimated", noisy ? noise_reason : spacing_reason};
+  switch (filter_scale) {
+  case FilterScale::Coarse: return {{4.8, 3.0}, {9.6, 6.0}, {13.2, 8.0}};
+  case FilterScale::Fine: return {{2.4, 3.0}, {4.4, 4.5}, {5.5, 6.0}};
+  default: return {{4.0, 3.0}, {8.0, 6.0}, {11.0, 8.0}};
+  }
+}
+
+/** The larger of the two lengths of a rule, and which it was. */
+ParameterOrigin
+lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
+{
+  const double by_noise = rule.noises * scale.noise, by_spacing = rule.spacings * scale.spacing;
+  if (by_noise > by_spacing)
+    return {name, by_noise, "estimated", toText(rule.noises) + " x noise"};
+  return {name, by_spacing, "estimated", toText(rule.spacings) + " x spacing"};
 }
 
 void
@@ -49,24 +71,26 @@ measureScale(const PointIndex& points, unsigned number_of_threads)
   box.add(bounds.max[0], bounds.max[1], bounds.max[2]);
   scale.diagonal = box.diagonal();
   scale.h0 = scale.diagonal / std::sqrt(static_cast<double>(points.size()));
-  scale.spacing = estimateSpacing(points, number_of_threads);
-  scale.noise = estimateNoise(points, scale.spacing, number_of_threads);
+  const double apparent_spacing = estimateSpacing(points, number_of_threads);
+  scale.noise = estimateNoise(points, apparent_spacing, number_of_threads);
+  scale.spacing = spacingWithoutNoise(apparent_spacing, scale.noise);
   return scale;
 }
 
 std::vector<ParameterOrigin>
 estimateParameters(const CloudScale& scale, PlaneNormalsParameters& normals, BilateralNormalsParameters& bilateral,
-                   GPFParameters& gpf)
+                   GPFParameters& gpf, FilterScale filter_scale)
 {
+  const ScaleRules rules = rulesOf(filter_scale);
   std::vector<ParameterOrigin> origins;
-  fill(normals.radius, lengthFromScale("normals.radius", scale, 4.0, "4 x noise", 3.0, "3 x spacing"), origins);
+  fill(normals.radius, lengthFromScale("normals.radius", scale, rules.normals), origins);
   if (bilateral.neighbors == 0)
-    fill(bilateral.radius, lengthFromScale("bilateral.radius", scale, 8.0, "8 x noise", 6.0, "6 x spacing"), origins);
+    fill(bilateral.radius, lengthFromScale("bilateral.radius", scale, rules.bilateral), origins);
   const bool paper = gpf.variance_update == VarianceUpdate::Paper && gpf.posterior_normalization;
   if (paper)
     fill(gpf.support_radius, {"gpf.support_radius", 8.0 * scale.h0, "preset", "8 x h0, within the paper's 3 .. 12"}, origins);
   else
-    fill(gpf.support_radius, lengthFromScale("gpf.support_radius", scale, 11.0, "11 x noise", 8.0, "8 x spacing"), origins);
+    fill(gpf.support_radius, lengthFromScale("gpf.support_radius", scale, rules.support), origins);
   return origins;
 }
 

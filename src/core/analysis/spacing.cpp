@@ -11,7 +11,7 @@ namespace pcl_gpf {
 
 namespace {
 
-constexpr std::size_t kMostProbes = 4096;
+constexpr std::size_t kMostProbes = 1024;
 constexpr std::size_t kNeighbor = 16;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -67,6 +67,27 @@ estimateSpacing(const PointIndex& points, unsigned number_of_threads)
   const auto middle = distances_sq.begin() + static_cast<std::ptrdiff_t>(distances_sq.size() / 2);
   std::nth_element(distances_sq.begin(), middle, distances_sq.end());
   return std::sqrt(*middle * kPi / static_cast<double>(neighbor));
+}
+
+double
+spacingWithoutNoise(double apparent_spacing, double noise)
+{
+  if (!(noise > 0.0) || !(apparent_spacing > 0.0))
+    return apparent_spacing;
+  // The ball about a point at height h holds the area of a disc of radius d, were it flat; of that, at distance u of the height that
+  // ring reaches, the share of the normal distribution between h - u and h + u. Integrated over the ring by Simpson's rule.
+  constexpr int kSteps = 64;
+  constexpr double kMedianHeight = 0.6744897501960817; // half of the points are nearer to the surface, in units of the noise
+  const double distance = apparent_spacing * std::sqrt(static_cast<double>(kNeighbor) / kPi) / noise;
+  const auto cumulative = [](double z) { return 0.5 * std::erfc(-z * std::sqrt(0.5)); };
+  double sum = 0.0;
+  for (int step = 0; step <= kSteps; ++step) {
+    const double u = distance * step / kSteps;
+    const double weight = step == 0 || step == kSteps ? 1.0 : step % 2 == 1 ? 4.0 : 2.0;
+    sum += weight * u * (cumulative(kMedianHeight + u) - cumulative(kMedianHeight - u));
+  }
+  const double share = 2.0 * sum / (3.0 * kSteps * distance);
+  return apparent_spacing * std::sqrt(std::min(1.0, share));
 }
 
 } // namespace pcl_gpf

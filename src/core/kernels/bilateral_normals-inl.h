@@ -13,7 +13,7 @@ namespace pcl_gpf {
 namespace kernels {
 namespace HWY_NAMESPACE {
 
-template <class D, bool kSignInvariant>
+template <class D, bool kSignInvariant, bool kWeighted>
 struct BilateralNormalSum {
   using V = hn::Vec<D>;
   const BilateralNormals& a;
@@ -42,7 +42,7 @@ struct BilateralNormalSum {
     const Lanes3<D> offset = minus<D>(loadDatum(d, a.data, datum), query);
     const V distance_sq = dot<D>(offset, offset);
     const auto inside = hn::Lt(distance_sq, radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     const Lanes3<D> normal = loadDatum(d, a.data_normals, datum);
     const V cosine = dot<D>(normal, query_normal);
@@ -53,6 +53,8 @@ struct BilateralNormalSum {
     V weight = hn::IfThenElseZero(inside, expNonPositive(d, exponent));
     if (kSignInvariant)
       weight = hn::CopySignToAbs(weight, cosine);
+    if (kWeighted)
+      weight = hn::Mul(weight, datum(d, a.data_weight));
     addScaled<D>(sum, weight, normal);
   }
 

@@ -41,7 +41,7 @@ struct GaussianSum {
     const Lanes3<D> offset = minus<D>(loadDatum(d, a.data, datum), query);
     const V distance_sq = dot<D>(offset, offset);
     const auto inside = hn::Lt(distance_sq, radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     sum = hn::Add(sum, hn::IfThenElseZero(inside, expNonPositive(d, hn::Mul(distance_sq, scale))));
   }
@@ -54,7 +54,7 @@ struct GaussianSum {
 };
 
 /** Moments of the data in reach. */
-template <class D>
+template <class D, bool kWeighted>
 struct MomentSum {
   using V = hn::Vec<D>;
   const Moments& a;
@@ -83,13 +83,15 @@ struct MomentSum {
   {
     Lanes3<D> o = minus<D>(loadDatum(d, a.data, datum), query);
     const auto inside = hn::Lt(dot<D>(o, o), radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     o = {hn::IfThenElseZero(inside, o.x), hn::IfThenElseZero(inside, o.y), hn::IfThenElseZero(inside, o.z)};
-    count = hn::Add(count, hn::IfThenElseZero(inside, hn::Set(d, 1.0f)));
-    mean = {hn::Add(mean.x, o.x), hn::Add(mean.y, o.y), hn::Add(mean.z, o.z)};
-    diagonal = {mulAdd(o.x, o.x, diagonal.x), mulAdd(o.y, o.y, diagonal.y), mulAdd(o.z, o.z, diagonal.z)};
-    mixed = {mulAdd(o.y, o.z, mixed.x), mulAdd(o.x, o.z, mixed.y), mulAdd(o.x, o.y, mixed.z)};
+    const V weight = kWeighted ? datum(d, a.data_weight) : hn::Set(d, 1.0f);
+    count = hn::Add(count, hn::IfThenElseZero(inside, weight));
+    const Lanes3<D> w = kWeighted ? Lanes3<D>{hn::Mul(weight, o.x), hn::Mul(weight, o.y), hn::Mul(weight, o.z)} : o;
+    mean = {hn::Add(mean.x, w.x), hn::Add(mean.y, w.y), hn::Add(mean.z, w.z)};
+    diagonal = {mulAdd(w.x, o.x, diagonal.x), mulAdd(w.y, o.y, diagonal.y), mulAdd(w.z, o.z, diagonal.z)};
+    mixed = {mulAdd(w.y, o.z, mixed.x), mulAdd(w.x, o.z, mixed.y), mulAdd(w.x, o.y, mixed.z)};
   }
 
   HWY_INLINE void

@@ -57,8 +57,9 @@ struct Projection {
   bool normal_weights = false;
   Real normal_falloff = 0;         ///< 1 / (1 - cos normal_angle)
   Real normal_floor = 0;
-  const Real* data_weight = nullptr;  ///< 1 / denominator of eq. 3; null with density null: all 1
-  const Real* data_density = nullptr; ///< 1 / rho
+  const Real* data_weight = nullptr;  ///< 1 / denominator of eq. 3, or the number of merged points; null, with density null: all 1
+  const Real* data_density = nullptr; ///< 1 / rho; null: all 1
+  std::size_t first_output = 0;       ///< query whose results go to the first place of the arrays below
   Real* weight_sum = nullptr;         ///< sum of weights
   MutableVectors<Real> pull;          ///< sum of weight * (d.n) n
   bool variance = false;              ///< also the sums of eq. 11; needs data_weight
@@ -88,6 +89,7 @@ struct BilateralNormals {
   float falloff = 1;       ///< theta(r) = exp(-falloff r^2 / radius^2)
   float angle_falloff = 0; ///< 1 / (1 - cos sigma_n)
   bool sign_invariant = true;
+  const float* data_weight = nullptr; ///< null: all 1
   MutableVectors<float> out;
 };
 
@@ -113,10 +115,11 @@ struct ImplicitSums {
   float* inverse_sq = nullptr;  ///< sum of w / h_i^2
 };
 
-/** Moments of the data in reach relative to the query: count, sum of d, sum of d d^T. */
+/** Moments of the data in reach relative to the query: count, sum of d, sum of d d^T, each datum as often as its weight says. */
 struct Moments {
   Vectors<float> queries, data;
   Radius<float> radius;
+  const float* data_weight = nullptr; ///< null: all 1
   std::size_t first_output = 0; ///< query whose results go to the first place of the arrays below
   float* count = nullptr;
   MutableVectors<float> mean;             ///< sum of d
@@ -124,16 +127,41 @@ struct Moments {
   MutableVectors<float> scatter_mixed;    ///< yz xz xy
 };
 
+/** Sums of two fields over the data in reach; a datum weighs as much as its normal agrees with the query's, in shape
+ * exp(-((1 - |cos|) normal_falloff)^2). */
+struct FieldSums {
+  Vectors<float> queries, query_normals, data, data_normals;
+  Radius<float> radius;
+  float normal_falloff = 0;            ///< 1 / (1 - cos angle); 0: all weights are 1 and normals are not read
+  const float* first_field = nullptr;
+  const float* second_field = nullptr;
+  float* count = nullptr;              ///< number of data in reach
+  float* weight_sum = nullptr;
+  float* first_sum = nullptr;          ///< sum of weight * first_field
+  float* second_sum = nullptr;
+};
+
 /** Candidates of the blocks, as in Neighborhoods. */
 struct Candidates {
   std::size_t query_count = 0;
   const std::size_t* run_offsets = nullptr;
   const Run* runs = nullptr;
+  std::size_t absent = 0;                    ///< index of a padded datum
   const std::size_t* lane_offsets = nullptr; ///< not null: foreign lists
   const std::int32_t* lanes = nullptr;
 };
 
-/** The loops of one instruction set; each works on the query blocks [begin, end). */
+/** Which children of tree nodes come near a box: bit c of near[k] is set when child c of packs[nodes[k]] is within the radius. */
+struct NearChildren {
+  const BoxPack* packs = nullptr;
+  const std::uint32_t* nodes = nullptr;
+  std::size_t count = 0;
+  FloatBox box;
+  float radius_sq = 0;
+  std::uint8_t* near = nullptr;
+};
+
+/** The loops of one instruction set; those over pairs work on the query blocks [begin, end). */
 struct KernelSet {
   void (*gaussian_sums_float)(const Candidates&, const GaussianSums<float>&, std::size_t begin, std::size_t end);
   void (*gaussian_sums_double)(const Candidates&, const GaussianSums<double>&, std::size_t begin, std::size_t end);
@@ -144,6 +172,8 @@ struct KernelSet {
   void (*bilateral_normals)(const Candidates&, const BilateralNormals&, std::size_t begin, std::size_t end);
   void (*implicit_sums)(const Candidates&, const ImplicitSums&, std::size_t begin, std::size_t end);
   void (*moments)(const Candidates&, const Moments&, std::size_t begin, std::size_t end);
+  void (*field_sums)(const Candidates&, const FieldSums&, std::size_t begin, std::size_t end);
+  void (*near_children)(const NearChildren&);
 };
 
 /** An instruction set that this build has. */

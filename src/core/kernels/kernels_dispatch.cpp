@@ -14,8 +14,10 @@
 #include <hwy/highway.h>
 
 #include "bilateral_normals-inl.h"
+#include "field_sums-inl.h"
 #include "gaussian_sums-inl.h"
 #include "implicit_sums-inl.h"
+#include "near_children-inl.h"
 #include "projection-inl.h"
 #include "repulsion-inl.h"
 
@@ -24,10 +26,16 @@ namespace pcl_gpf {
 namespace kernels {
 namespace HWY_NAMESPACE {
 
+template <bool kSignInvariant, bool kWeighted>
+struct NormalLoops {
+  template <class D>
+  using Sum = BilateralNormalSum<D, kSignInvariant, kWeighted>;
+};
+
 template <class D>
-using SignInvariantNormalSum = BilateralNormalSum<D, true>;
+using PlainMomentSum = MomentSum<D, false>;
 template <class D>
-using OrientedNormalSum = BilateralNormalSum<D, false>;
+using WeightedMomentSum = MomentSum<D, true>;
 
 template <typename Real>
 static void
@@ -39,27 +47,29 @@ gaussianSums(const Candidates& candidates, const GaussianSums<Real>& a, std::siz
 /** Chooses the loop that computes only what was asked for. */
 template <bool kSymmetric, bool kNormalWeights>
 struct ProjectionLoops {
-  template <class D>
-  using Plain = ProjectionSum<D, kSymmetric, kNormalWeights, false, false, false>;
-  template <class D>
-  using Gentle = ProjectionSum<D, kSymmetric, kNormalWeights, false, false, true>;
-  template <class D>
-  using Weighted = ProjectionSum<D, kSymmetric, kNormalWeights, true, false, false>;
-  template <class D>
-  using WithVariance = ProjectionSum<D, kSymmetric, kNormalWeights, true, true, false>;
+  template <bool kWeighted, bool kDensity, bool kVariance, bool kGentle>
+  struct Loop {
+    template <class D>
+    using Sum = ProjectionSum<D, kSymmetric, kNormalWeights, kWeighted, kDensity, kVariance, kGentle>;
+  };
 
   template <typename Real>
   static void
   run(const Candidates& candidates, const Projection<Real>& a, std::size_t begin, std::size_t end)
   {
+    const bool gentle = sizeof(Real) == sizeof(float) && a.falloff <= static_cast<Real>(kGentlest);
     if (a.variance)
-      streamPairs<WithVariance, Real>(candidates, a, begin, end);
+      streamPairs<Loop<true, true, true, false>::template Sum, Real>(candidates, a, begin, end);
+    else if (a.data_weight && a.data_density)
+      streamPairs<Loop<true, true, false, false>::template Sum, Real>(candidates, a, begin, end);
+    else if (a.data_weight && gentle)
+      streamPairs<Loop<true, false, false, true>::template Sum, Real>(candidates, a, begin, end);
     else if (a.data_weight)
-      streamPairs<Weighted, Real>(candidates, a, begin, end);
-    else if (sizeof(Real) == sizeof(float) && a.falloff <= Real(1))
-      streamPairs<Gentle, Real>(candidates, a, begin, end);
+      streamPairs<Loop<true, false, false, false>::template Sum, Real>(candidates, a, begin, end);
+    else if (gentle)
+      streamPairs<Loop<false, false, false, true>::template Sum, Real>(candidates, a, begin, end);
     else
-      streamPairs<Plain, Real>(candidates, a, begin, end);
+      streamPairs<Loop<false, false, false, false>::template Sum, Real>(candidates, a, begin, end);
   }
 };
 
@@ -87,10 +97,14 @@ repulsion(const Candidates& candidates, const Repulsion<Real>& a, std::size_t be
 static void
 bilateralNormals(const Candidates& candidates, const BilateralNormals& a, std::size_t begin, std::size_t end)
 {
-  if (a.sign_invariant)
-    streamPairs<SignInvariantNormalSum, float>(candidates, a, begin, end);
+  if (a.sign_invariant && a.data_weight)
+    streamPairs<NormalLoops<true, true>::Sum, float>(candidates, a, begin, end);
+  else if (a.sign_invariant)
+    streamPairs<NormalLoops<true, false>::Sum, float>(candidates, a, begin, end);
+  else if (a.data_weight)
+    streamPairs<NormalLoops<false, true>::Sum, float>(candidates, a, begin, end);
   else
-    streamPairs<OrientedNormalSum, float>(candidates, a, begin, end);
+    streamPairs<NormalLoops<false, false>::Sum, float>(candidates, a, begin, end);
 }
 
 template <class D>
@@ -110,12 +124,29 @@ implicitSums(const Candidates& candidates, const ImplicitSums& a, std::size_t be
 static void
 moments(const Candidates& candidates, const Moments& a, std::size_t begin, std::size_t end)
 {
-  streamPairs<MomentSum, float>(candidates, a, begin, end);
+  if (a.data_weight)
+    streamPairs<WeightedMomentSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<PlainMomentSum, float>(candidates, a, begin, end);
+}
+
+template <class D>
+using AgreeingFieldSum = FieldSum<D, true>;
+template <class D>
+using PlainFieldSum = FieldSum<D, false>;
+
+static void
+fieldSums(const Candidates& candidates, const FieldSums& a, std::size_t begin, std::size_t end)
+{
+  if (a.normal_falloff > 0.0f)
+    streamPairs<AgreeingFieldSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<PlainFieldSum, float>(candidates, a, begin, end);
 }
 
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
                               repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
-                              moments};
+                              moments,             fieldSums,            nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

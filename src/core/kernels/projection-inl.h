@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 /** Data term of eq. 10. The residual of eq. 11 after the move delta is a quadratic form in it,
  * sum p ((d - delta).b)^2 = sum p (d.b)^2 - 2 delta.sum p (d.b) b + delta^T (sum p b b^T) delta, so one visit serves both. */
-template <class D, bool kSymmetric, bool kNormalWeights, bool kWeighted, bool kVariance, bool kGentle>
+template <class D, bool kSymmetric, bool kNormalWeights, bool kWeighted, bool kDensity, bool kVariance, bool kGentle>
 struct ProjectionSum {
   using Real = hn::TFromD<D>;
   using V = hn::Vec<D>;
@@ -23,8 +23,9 @@ struct ProjectionSum {
   D d;
   std::size_t first;
   Lanes3<D> query, query_normal;
-  V radius_sq, scale, weight_sum, own_pull;
-  Lanes3<D> pull;
+  V radius_sq, scale, weight_sum;
+  Lanes3<D> pull, own_offset;
+  Bell<D> normal_bell, symmetry_bell;
   V posterior_sum, residual_sq;
   Lanes3<D> cross, diagonal, mixed;
 
@@ -38,8 +39,10 @@ struct ProjectionSum {
   , radius_sq(loadRadiusSq(tag, arguments.radius, q))
   , scale(hn::Div(hn::Set(tag, -arguments.falloff), radius_sq))
   , weight_sum(hn::Zero(tag))
-  , own_pull(hn::Zero(tag))
   , pull(zero3(tag))
+  , own_offset(zero3(tag))
+  , normal_bell(tag, 1.0 - static_cast<double>(arguments.normal_floor), arguments.normal_falloff)
+  , symmetry_bell(tag, 0.5, arguments.symmetry_falloff)
   , posterior_sum(hn::Zero(tag))
   , residual_sq(hn::Zero(tag))
   , cross(zero3(tag))
@@ -54,7 +57,7 @@ struct ProjectionSum {
     const Lanes3<D> offset = minus<D>(loadDatum(d, a.data, datum), query);
     const V distance_sq = dot<D>(offset, offset);
     const auto inside = hn::Lt(distance_sq, radius_sq);
-    if (hn::AllFalse(d, inside))
+    if (skips(d, inside))
       return;
     const Lanes3<D> normal = loadDatum(d, a.data_normals, datum);
     const V height = dot<D>(offset, normal);
@@ -64,7 +67,7 @@ struct ProjectionSum {
       weight = hn::Mul(weight, datum(d, a.data_weight));
     if (kVariance)
       addVariance(weight, height, normal);
-    if (kWeighted)
+    if (kDensity)
       weight = hn::Mul(weight, datum(d, a.data_density));
     if (kSymmetric || kNormalWeights)
       addAnisotropic(weight, height, offset, normal);
@@ -79,16 +82,14 @@ struct ProjectionSum {
   {
     const V one = hn::Set(d, Real(1));
     const V deviation = hn::Sub(one, hn::Abs(dot<D>(normal, query_normal))); // 1 - cos of the angle between the planes
-    if (kNormalWeights) {
-      const V floor = hn::Set(d, a.normal_floor);
-      weight = hn::Mul(weight, mulAdd(hn::Sub(one, floor), bell(d, hn::Mul(deviation, hn::Set(d, a.normal_falloff))), floor));
-    }
+    const V deviation_sq = hn::Mul(deviation, deviation);
+    if (kNormalWeights)
+      weight = hn::Mul(weight, hn::Add(normal_bell(d, deviation_sq), hn::Set(d, a.normal_floor)));
     weight_sum = hn::Add(weight_sum, weight);
     if (kSymmetric) {
       // (1 - s) (d.b_n) b_n + s (d.b_x) b_x: where s is one half the two errors cancel on a curved surface; s is 0 across an edge.
-      const V share = hn::Mul(hn::Set(d, Real(0.5)), bell(d, hn::Mul(deviation, hn::Set(d, a.symmetry_falloff))));
-      const V own = hn::Mul(weight, share);
-      own_pull = mulAdd(own, dot<D>(offset, query_normal), own_pull);
+      const V own = hn::Mul(weight, symmetry_bell(d, deviation_sq));
+      addScaled<D>(own_offset, own, offset); // d.b_x is taken of the sum
       weight = hn::Sub(weight, own);
     }
     addScaled<D>(pull, hn::Mul(weight, height), normal);
@@ -110,15 +111,16 @@ struct ProjectionSum {
   store()
   {
     if (kSymmetric)
-      addScaled<D>(pull, own_pull, query_normal);
-    hn::StoreU(weight_sum, d, a.weight_sum + first);
-    storeQueries(d, a.pull, first, pull);
+      addScaled<D>(pull, dot<D>(own_offset, query_normal), query_normal);
+    const std::size_t place = first - a.first_output;
+    hn::StoreU(weight_sum, d, a.weight_sum + place);
+    storeQueries(d, a.pull, place, pull);
     if (kVariance) {
-      hn::StoreU(posterior_sum, d, a.posterior_sum + first);
-      hn::StoreU(residual_sq, d, a.residual_sq + first);
-      storeQueries(d, a.cross, first, cross);
-      storeQueries(d, a.scatter_diagonal, first, diagonal);
-      storeQueries(d, a.scatter_mixed, first, mixed);
+      hn::StoreU(posterior_sum, d, a.posterior_sum + place);
+      hn::StoreU(residual_sq, d, a.residual_sq + place);
+      storeQueries(d, a.cross, place, cross);
+      storeQueries(d, a.scatter_diagonal, place, diagonal);
+      storeQueries(d, a.scatter_mixed, place, mixed);
     }
   }
 };

@@ -4,6 +4,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "../check_range.h"
+#include "../merged_points.h"
 #include "../sorted_points.h"
 
 #include <chrono>
@@ -39,9 +40,10 @@ neighborRadii(const ClusterTree& tree, PointsView points, unsigned k, std::size_
   return radius_sq;
 }
 
-/** Unit vectors from sums; \return mean of the turns and the number of points that only found themselves */
+/** Unit vectors from sums. \param[in] weights number of points behind each vector, or null
+ * \return sum of the turns and the number of points that only found themselves */
 RoundSum
-normalise(const SortedVectors<float>& before, SortedVectors<float>& sums, std::size_t threads)
+normalise(const SortedVectors<float>& before, const float* weights, SortedVectors<float>& sums, std::size_t threads)
 {
   const std::size_t count = before.size();
   std::vector<RoundSum> partials((count + kPointsPerTask - 1) / kPointsPerTask);
@@ -61,7 +63,7 @@ normalise(const SortedVectors<float>& before, SortedVectors<float>& sums, std::s
       sums.y[i] /= length;
       sums.z[i] /= length;
       const double dx = sums.x[i] - before.x[i], dy = sums.y[i] - before.y[i], dz = sums.z[i] - before.z[i];
-      partial.change += 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(dx * dx + dy * dy + dz * dz)));
+      partial.change += (weights ? static_cast<double>(weights[i]) : 1.0) * 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(dx * dx + dy * dy + dz * dz)));
     }
   });
   RoundSum total;
@@ -73,10 +75,10 @@ normalise(const SortedVectors<float>& before, SortedVectors<float>& sums, std::s
 }
 
 SortedVectors<float>
-unitVectors(VectorsView normals)
+unitVectors(VectorsView normals, std::size_t threads)
 {
   SortedVectors<float> unit(normals.size);
-  for (std::size_t i = 0; i < normals.size; ++i) {
+  const auto one = [&](std::size_t i) {
     const double x = normals.x[i], y = normals.y[i], z = normals.z[i];
     const double length = std::sqrt(x * x + y * y + z * z);
     // A unit vector stays what it is to the last bit.
@@ -84,9 +86,147 @@ unitVectors(VectorsView normals)
     unit.x[i] = static_cast<float>(x * scale);
     unit.y[i] = static_cast<float>(y * scale);
     unit.z[i] = static_cast<float>(z * scale);
-  }
+  };
+  parallelBlocks(normals.size, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      one(i);
+  });
   return unit;
 }
+
+/** Squared radius of each mean: the largest of its points. */
+AlignedArray<float>
+radiiOfMeans(const MergedPoints& merged, const AlignedArray<float>& radius_sq)
+{
+  AlignedArray<float> of_means(radius_sq.empty() ? 0 : merged.size() + kQueryBlock, 0.0f);
+  for (std::size_t i = 0; !radius_sq.empty() && i < merged.mean_of.size(); ++i)
+    of_means[merged.mean_of[i]] = std::max(of_means[merged.mean_of[i]], radius_sq[i]);
+  return of_means;
+}
+
+/** Normals of the means given to their points, each with the sign that the point had. */
+void
+handDown(const MergedPoints& merged, const SortedVectors<float>& means, SortedVectors<float>& normals, std::size_t threads)
+{
+  parallelBlocks(normals.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t m = merged.mean_of[i];
+      const float cosine = means.x[m] * normals.x[i] + means.y[m] * normals.y[i] + means.z[m] * normals.z[i];
+      normals.x[i] = std::copysign(1.0f, cosine) * means.x[m];
+      normals.y[i] = std::copysign(1.0f, cosine) * means.y[m];
+      normals.z[i] = std::copysign(1.0f, cosine) * means.z[m];
+    }
+  });
+}
+
+/** The rounds over one cloud in sorted order. */
+class NormalRounds {
+public:
+  NormalRounds(const BilateralNormalsParameters& parameters, const PointIndex& points, const ProgressCallback& progress)
+  : parameters_(parameters)
+  , points_(points)
+  , progress_(progress)
+  , threads_(resolveThreads(parameters.number_of_threads))
+  , radius_(boundedRadius(parameters.radius))
+  {
+    if (parameters.neighbors > 0 && points.size() > 0)
+      radius_sq_ = neighborRadii(points.tree(), points.sorted(), parameters.neighbors, threads_);
+  }
+
+  void
+  run(SortedVectors<float>& normals, const NeighborSearch& search, BilateralNormalsStatistics& statistics)
+  {
+    if (parameters_.iterations == 0 || points_.size() == 0)
+      return;
+    // A foreign search has one radius for all, which for k neighbours would be the longest of the cloud.
+    const bool foreign = search && parameters_.neighbors == 0;
+    MergedPoints merged;
+    if (!foreign && parameters_.sign_invariant)
+      merged = mergePoints(points_, VectorsView{normals.x.data(), normals.y.data(), normals.z.data(), normals.size()},
+                           {radius_, radius_sq_.empty() ? nullptr : radius_sq_.data()}, parameters_.merge_above, true, threads_);
+    if (!merged.empty()) {
+      runMerged(normals, merged, statistics);
+      return;
+    }
+    const PointsView view = points_.sorted();
+    const Neighborhoods near =
+        foreign ? transposeLists(search(view, view, radius_), view.size) : neighborhoods(points_.tree(), view, radius_sq_);
+    SortedVectors<float> next(normals.size());
+    for (unsigned round = 0; round < parameters_.iterations; ++round) {
+      kernels::BilateralNormals a = arguments(view, radius_sq_);
+      a.data_normals = normals.vectors();
+      filter(near, a, normals, nullptr, next, statistics);
+    }
+  }
+
+private:
+  /** All rounds but the last over the means, the last over the points. */
+  void
+  runMerged(SortedVectors<float>& normals, MergedPoints& merged, BilateralNormalsStatistics& statistics) const
+  {
+    SortedVectors<float> means = std::move(merged.normals), next(means.size());
+    const AlignedArray<float> radius_sq = radiiOfMeans(merged, radius_sq_);
+    if (parameters_.iterations > 1) {
+      const Neighborhoods near = neighborhoods(merged.tree, merged.view(), radius_sq);
+      for (unsigned round = 0; round + 1 < parameters_.iterations; ++round) {
+        kernels::BilateralNormals a = arguments(merged.view(), radius_sq);
+        a.data_normals = means.vectors();
+        a.data_weight = merged.weights.data();
+        filter(near, a, means, merged.weights.data(), next, statistics);
+      }
+      handDown(merged, means, normals, threads_);
+    }
+    kernels::BilateralNormals a = arguments(points_.sorted(), radius_sq_);
+    a.data = merged.positions.vectors();
+    a.data_normals = means.vectors();
+    a.data_weight = merged.weights.data();
+    next = SortedVectors<float>(normals.size());
+    filter(neighborhoods(merged.tree, points_.sorted(), radius_sq_), a, normals, nullptr, next, statistics);
+  }
+
+  kernels::BilateralNormals
+  arguments(PointsView queries, const AlignedArray<float>& radius_sq) const
+  {
+    kernels::BilateralNormals a;
+    a.queries = a.data = {queries.x, queries.y, queries.z};
+    a.radius = {static_cast<float>(radius_ * radius_), radius_sq.empty() ? nullptr : radius_sq.data()};
+    a.angle_falloff = static_cast<float>(1.0 / (1.0 - std::cos(parameters_.angle * kPi / 180.0)));
+    a.sign_invariant = parameters_.sign_invariant;
+    return a;
+  }
+
+  Neighborhoods
+  neighborhoods(const ClusterTree& tree, PointsView queries, const AlignedArray<float>& radius_sq) const
+  {
+    return radius_sq.empty() ? findNeighborhoods(tree, queries, radius_, threads_)
+                             : findNeighborhoods(tree, queries, radius_sq.data(), threads_);
+  }
+
+  /** One round: `normals` are those of the queries, replaced by what `next` receives. */
+  void
+  filter(const Neighborhoods& near, kernels::BilateralNormals& a, SortedVectors<float>& normals, const float* weights,
+         SortedVectors<float>& next, BilateralNormalsStatistics& statistics) const
+  {
+    if (progress_ && !progress_(static_cast<double>(statistics.mean_change.size()) / parameters_.iterations))
+      throw Cancelled();
+    a.query_normals = normals.vectors();
+    a.out = next.vectors();
+    const kernels::Candidates candidates = candidatesOf(near);
+    parallelBlocks(blockCount(normals.size()), kBlocksPerTask, threads_,
+                   [&](std::size_t begin, std::size_t end) { kernels::active().bilateral_normals(candidates, a, begin, end); });
+    const RoundSum sum = normalise(normals, weights, next, threads_);
+    statistics.mean_change.push_back(sum.change * 180.0 / kPi / static_cast<double>(points_.size()));
+    statistics.isolated_points = sum.isolated;
+    std::swap(normals, next);
+  }
+
+  const BilateralNormalsParameters& parameters_;
+  const PointIndex& points_;
+  const ProgressCallback& progress_;
+  std::size_t threads_;
+  double radius_;
+  AlignedArray<float> radius_sq_; ///< of each point, when it comes from its neighbours
+};
 
 } // namespace
 
@@ -129,43 +269,10 @@ filterNormalsBilaterally(const BilateralNormalsParameters& parameters, const Poi
   validate(parameters);
   if (parameters.radius <= 0.0 && parameters.neighbors == 0)
     throw InvalidParameter("bilateral radius or neighbors must be set; both are 0");
-  const std::size_t threads = resolveThreads(parameters.number_of_threads);
-  const PointsView view = points.sorted();
-  const std::size_t count = view.size;
-  SortedVectors<float> current = unitVectors(normals), next(count);
-
-  kernels::BilateralNormals a;
-  a.queries = a.data = {view.x, view.y, view.z};
-  AlignedArray<float> radius_sq;
-  if (parameters.neighbors > 0 && count > 0) {
-    radius_sq = neighborRadii(points.tree(), view, parameters.neighbors, threads);
-    a.radius.per_query = radius_sq.data();
-  }
-  const double radius = boundedRadius(parameters.radius);
-  a.radius.radius_sq = static_cast<float>(radius * radius);
-  a.angle_falloff = static_cast<float>(1.0 / (1.0 - std::cos(parameters.angle * kPi / 180.0)));
-  a.sign_invariant = parameters.sign_invariant;
-
+  SortedVectors<float> current = unitVectors(normals, resolveThreads(parameters.number_of_threads));
+  const std::size_t count = points.size();
   BilateralNormalsStatistics statistics;
-  Neighborhoods near;
-  if (parameters.iterations > 0 && count > 0)
-    // A foreign search has one radius for all, which for k neighbours would be the longest of the cloud.
-    near = parameters.neighbors > 0 ? findNeighborhoods(points.tree(), view, radius_sq.data(), threads)
-           : search                 ? transposeLists(search(view, view, radius), count)
-                                    : findNeighborhoods(points.tree(), view, radius, threads);
-  const kernels::Candidates candidates = candidatesOf(near);
-  for (unsigned round = 0; round < parameters.iterations; ++round) {
-    if (progress && !progress(static_cast<double>(round) / parameters.iterations))
-      throw Cancelled();
-    a.query_normals = a.data_normals = current.vectors();
-    a.out = next.vectors();
-    parallelBlocks(blockCount(count), kBlocksPerTask, threads,
-                   [&](std::size_t begin, std::size_t end) { kernels::active().bilateral_normals(candidates, a, begin, end); });
-    const RoundSum sum = normalise(current, next, threads);
-    statistics.mean_change.push_back(sum.change * 180.0 / kPi / static_cast<double>(std::max<std::size_t>(1, count)));
-    statistics.isolated_points = sum.isolated;
-    std::swap(current, next);
-  }
+  NormalRounds(parameters, points, progress).run(current, search, statistics);
   std::copy_n(current.x.data(), count, normals.x);
   std::copy_n(current.y.data(), count, normals.y);
   std::copy_n(current.z.data(), count, normals.z);

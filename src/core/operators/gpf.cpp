@@ -83,6 +83,7 @@ gpfRun(GPFState& state, const ProgressCallback& progress)
     if (history.back().mean_movement < p.convergence_threshold * p.support_radius)
       break;
   }
+  state.implementation().releaseNeighborhoods();
   return history;
 }
 

@@ -22,6 +22,7 @@ GPFParameters::paper()
   p.sample_ratio = 0.5;
   p.maximum_iterations = 30;
   p.convergence_threshold = 0.0;
+  p.merge_above = 0;
   return p;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gpf_points.h"
 
+#include <pcl_gpf/core/parallel.h>
+
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <type_traits>
 
@@ -19,24 +22,21 @@ GPFPoints<Real>::points() const
 }
 
 template <typename Real>
-GPFPoints<Real>::GPFPoints(const GPFInput& input, unsigned number_of_threads)
+GPFPoints<Real>::GPFPoints(const GPFInput& input, unsigned number_of_threads) : threads_(resolveThreads(number_of_threads))
 {
   index_ = input.index;
-  std::vector<std::uint32_t> order; // of the arrays in `input`
-  if (index_) {
-    order.resize(index_->size());
-    std::iota(order.begin(), order.end(), std::uint32_t{0});
-  } else {
+  std::vector<std::uint32_t> order; // of the arrays in `input`; empty: that of the index
+  if (!index_) {
     own_index_ = std::make_unique<PointIndex>(input.points, number_of_threads);
     index_ = own_index_.get();
     order = index_->order();
   }
   const PointsView positions = input.index ? index_->sorted() : input.points;
   if constexpr (!std::is_same<Real, float>::value)
-    exact_points_ = gather<Real>(positions, input.remainders, order, Real(kFarAway));
-  point_normals_ = gather<Real>(input.normals, {}, order, Real(0));
+    exact_points_ = gather<Real>(positions, input.remainders, order, Real(kFarAway), threads_);
+  point_normals_ = gather<Real>(input.normals, {}, order, Real(0), threads_);
   if (!input.samples) {
-    samples_ = gather<Real>(positions, input.remainders, order, Real(kFarAway));
+    samples_ = gather<Real>(positions, input.remainders, order, Real(kFarAway), threads_);
     sample_order_ = std::move(order);
   } else
     sortSamples(input, positions, order);
@@ -46,9 +46,9 @@ template <typename Real>
 void
 GPFPoints<Real>::sortSamples(const GPFInput& input, PointsView positions, const std::vector<std::uint32_t>& order)
 {
-  std::vector<std::uint32_t> place(order.size()); // of each input point among the sorted ones
-  for (std::size_t i = 0; i < order.size(); ++i)
-    place[order[i]] = static_cast<std::uint32_t>(i);
+  std::vector<std::uint32_t> place(index_->size()); // of each input point among the sorted ones
+  for (std::size_t i = 0; i < place.size(); ++i)
+    place[order.empty() ? i : order[i]] = static_cast<std::uint32_t>(i);
   sample_order_.resize(input.sample_count);
   std::iota(sample_order_.begin(), sample_order_.end(), std::uint32_t{0});
   std::sort(sample_order_.begin(), sample_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -61,19 +61,36 @@ GPFPoints<Real>::sortSamples(const GPFInput& input, PointsView positions, const 
     seed_points[s] = input.samples[sample_order_[s]];
     seeds_[s] = place[seed_points[s]];
   }
-  samples_ = gather<Real>(positions, input.remainders, seed_points, Real(kFarAway));
-  sample_normals_ = gather<Real>(input.normals, {}, seed_points, Real(0));
+  samples_ = SortedVectors<Real>(0, Real(kFarAway));
+  if (seed_points.empty()) // which gather() would take for all points
+    return;
+  samples_ = gather<Real>(positions, input.remainders, seed_points, Real(kFarAway), threads_);
+  sample_normals_ = gather<Real>(input.normals, {}, seed_points, Real(0), threads_);
+}
+
+/** out[rank of s] = value(s), three values a sample. */
+template <typename Real>
+template <typename Value>
+void
+GPFPoints<Real>::write(MutableVectorsView out, const Value& value) const
+{
+  constexpr std::size_t kPointsPerTask = 16384;
+  parallelBlocks(sampleCount(), kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const std::array<Real, 3> v = value(s);
+      const std::size_t rank = rankOf(s);
+      out.x[rank] = static_cast<float>(v[0]);
+      out.y[rank] = static_cast<float>(v[1]);
+      out.z[rank] = static_cast<float>(v[2]);
+    }
+  });
 }
 
 template <typename Real>
 void
 GPFPoints<Real>::positions(MutableVectorsView out) const
 {
-  for (std::size_t s = 0; s < sampleCount(); ++s) {
-    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s]);
-    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s]);
-    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s]);
-  }
+  write(out, [&](std::size_t s) { return std::array<Real, 3>{samples_.x[s], samples_.y[s], samples_.z[s]}; });
 }
 
 template <typename Real>
@@ -81,12 +98,10 @@ void
 GPFPoints<Real>::displacements(MutableVectorsView out) const
 {
   const kernels::Vectors<Real> from = points();
-  for (std::size_t s = 0; s < sampleCount(); ++s) {
+  write(out, [&](std::size_t s) {
     const std::size_t seed = seedOf(s);
-    out.x[sample_order_[s]] = static_cast<float>(samples_.x[s] - from.x[seed]);
-    out.y[sample_order_[s]] = static_cast<float>(samples_.y[s] - from.y[seed]);
-    out.z[sample_order_[s]] = static_cast<float>(samples_.z[s] - from.z[seed]);
-  }
+    return std::array<Real, 3>{samples_.x[s] - from.x[seed], samples_.y[s] - from.y[seed], samples_.z[s] - from.z[seed]};
+  });
 }
 
 template <typename Real>
@@ -94,11 +109,7 @@ void
 GPFPoints<Real>::normals(MutableVectorsView out) const
 {
   const SortedVectors<Real>& own = sampleNormals();
-  for (std::size_t s = 0; s < sampleCount(); ++s) {
-    out.x[sample_order_[s]] = static_cast<float>(own.x[s]);
-    out.y[sample_order_[s]] = static_cast<float>(own.y[s]);
-    out.z[sample_order_[s]] = static_cast<float>(own.z[s]);
-  }
+  write(out, [&](std::size_t s) { return std::array<Real, 3>{own.x[s], own.y[s], own.z[s]}; });
 }
 
 template class GPFPoints<float>;

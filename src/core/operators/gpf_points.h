@@ -19,7 +19,7 @@ public:
   explicit GPFPoints(const GPFInput& input, unsigned number_of_threads);
 
   std::size_t pointCount() const { return index_->size(); }
-  std::size_t sampleCount() const { return sample_order_.size(); }
+  std::size_t sampleCount() const { return samples_.size(); }
 
   const PointIndex& index() const { return *index_; }
   /** V in Real. */
@@ -35,7 +35,7 @@ public:
     return sample_normals_.size() > 0 ? sample_normals_ : point_normals_;
   }
   /** Rank of sorted sample s in the caller's order. */
-  std::size_t rankOf(std::size_t s) const { return sample_order_[s]; }
+  std::size_t rankOf(std::size_t s) const { return sample_order_.empty() ? s : sample_order_[s]; }
   /** Sorted point that seeded sorted sample s. */
   std::size_t seedOf(std::size_t s) const { return seeds_.empty() ? s : seeds_[s]; }
 
@@ -47,6 +47,9 @@ public:
   normals(MutableVectorsView out) const;
 
 private:
+  template <typename Value>
+  void
+  write(MutableVectorsView out, const Value& value) const;
   void
   sortSamples(const GPFInput& input, PointsView positions, const std::vector<std::uint32_t>& order);
 
@@ -54,7 +57,8 @@ private:
   const PointIndex* index_;
   SortedVectors<Real> exact_points_; ///< only for Real = double; float reads the index
   SortedVectors<Real> point_normals_;
-  std::vector<std::uint32_t> sample_order_;
+  std::size_t threads_;
+  std::vector<std::uint32_t> sample_order_; ///< rank of each sorted sample; empty: its own place
   std::vector<std::uint32_t> seeds_; ///< sorted point that seeded each sample; empty: sample s was seeded by point s
   SortedVectors<Real> samples_, sample_normals_;
 };

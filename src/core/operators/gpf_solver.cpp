@@ -16,6 +16,7 @@ constexpr double kPi = 3.14159265358979323846;
 /** Keeps eq. 3 finite when every residual is 0; far below any variance that weights could tell apart. */
 constexpr double kLeastVariance = 1e-60;
 constexpr unsigned kIterationsWithoutRepulsion = 3;
+constexpr std::size_t kPointsPerTask = 8192;
 /** Shortest distance, as a share of h, by which a repulsion is divided in the default mode. */
 constexpr double kShortestRepulsion = 1e-3;
 
@@ -58,6 +59,7 @@ angleFalloff(double degrees)
 
 } // namespace
 
+/** Sums of the data term for the samples of one task; still in the cache when these are moved. */
 template <typename Real>
 struct GPFSolver<Real>::DataSums {
   explicit DataSums(std::size_t size, bool variance)
@@ -70,6 +72,18 @@ struct GPFSolver<Real>::DataSums {
     cross = SortedVectors<Real>(size);
     diagonal = SortedVectors<Real>(size);
     mixed = SortedVectors<Real>(size);
+  }
+
+  void
+  receive(kernels::Projection<Real>& a)
+  {
+    a.weight_sum = weight.data();
+    a.pull = pull.vectors();
+    a.posterior_sum = posterior.data();
+    a.residual_sq = residual_sq.data();
+    a.cross = cross.vectors();
+    a.scatter_diagonal = diagonal.vectors();
+    a.scatter_mixed = mixed.vectors();
   }
 
   /** Sum of posterior ((d - delta).b)^2 after the move delta (eq. 11). */
@@ -108,6 +122,18 @@ GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
   parameters = p;
   isolated_.assign(size(), 0);
   evaluateDensities();
+  mergeData();
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::mergeData()
+{
+  if constexpr (std::is_same<Real, float>::value) {
+    const kernels::Vectors<float> n = cloud_.pointNormals();
+    if (!search_ && point_weight_.empty()) // merged points have no weights of their own
+      merged_ = mergePoints(cloud_.index(), {n.x, n.y, n.z, cloud_.pointCount()}, {data_radius_}, parameters.merge_above, false, threads_);
+  }
 }
 
 /** rho_n = 1 + sum over n' != n of theta(|v_n - v_n'|), within h / 2; the point itself contributes the 1. */
@@ -126,8 +152,10 @@ GPFSolver<Real>::evaluateDensities()
   const PointsView sorted = cloud_.index().sorted();
   gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.points(), neighborhoods(cloud_.index().tree(), sorted, sorted, data_radius_), data_radius_, 1.0,
                inverse_density_);
-  for (std::size_t n = 0; n < cloud_.pointCount(); ++n)
-    inverse_density_[n] = Real(1) / std::max(Real(1), inverse_density_[n]);
+  parallelBlocks(cloud_.pointCount(), kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      inverse_density_[n] = Real(1) / std::max(Real(1), inverse_density_[n]);
+  });
 }
 
 template <typename Real>
@@ -137,9 +165,8 @@ GPFSolver<Real>::step()
   const auto start = std::chrono::steady_clock::now();
   if (parameters.posterior_normalization)
     evaluatePosteriorDenominators();                                // E-step, eq. 3
-  const DataSums data = evaluateDataTerm();                         // M-step, eq. 10, first sum
-  const RepulsionSums repulsion = evaluateRepulsion();              // eq. 10, second sum
-  IterationStats stats = move(data, repulsion);                     // eq. 10 and eq. 11
+  const RepulsionSums repulsion = evaluateRepulsion();              // M-step, eq. 10, second sum
+  IterationStats stats = move(repulsion);                           // eq. 10, first sum, and eq. 11
   ++iteration_;
   stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return stats;
@@ -155,18 +182,18 @@ GPFSolver<Real>::evaluatePosteriorDenominators()
                    static_cast<double>(cloud_.pointCount());
   gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.samples().vectors(), current(posterior_neighborhoods_, true, false), data_radius_,
                data_radius_ * data_radius_ / (2.0 * variance_), point_weight_);
-  for (std::size_t n = 0; n < cloud_.pointCount(); ++n) {
-    const Real denominator = point_weight_[n] + static_cast<Real>(c);
-    point_weight_[n] = denominator > Real(0) ? Real(1) / denominator : Real(0);
-  }
+  parallelBlocks(cloud_.pointCount(), kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const Real denominator = point_weight_[n] + static_cast<Real>(c);
+      point_weight_[n] = denominator > Real(0) ? Real(1) / denominator : Real(0);
+    }
+  });
 }
 
 template <typename Real>
-typename GPFSolver<Real>::DataSums
-GPFSolver<Real>::evaluateDataTerm()
+kernels::Projection<Real>
+GPFSolver<Real>::dataTerm() const
 {
-  const bool variance = parameters.variance_update != VarianceUpdate::Fixed;
-  DataSums sums(cloud_.samples().size(), variance);
   kernels::Projection<Real> a;
   a.queries = cloud_.samples().vectors();
   a.query_normals = cloud_.sampleNormals().vectors();
@@ -181,18 +208,14 @@ GPFSolver<Real>::evaluateDataTerm()
   a.normal_floor = static_cast<Real>(parameters.normal_weight_floor);
   a.data_weight = point_weight_.empty() ? nullptr : point_weight_.data();
   a.data_density = inverse_density_.empty() ? nullptr : inverse_density_.data();
-  a.weight_sum = sums.weight.data();
-  a.pull = sums.pull.vectors();
-  a.variance = variance;
-  a.posterior_sum = sums.posterior.data();
-  a.residual_sq = sums.residual_sq.data();
-  a.cross = sums.cross.vectors();
-  a.scatter_diagonal = sums.diagonal.vectors();
-  a.scatter_mixed = sums.mixed.vectors();
-  const kernels::Candidates candidates = candidatesOf(current(data_neighborhoods_, false, true));
-  parallelBlocks(blockCount(cloud_.samples().size()), kBlocksPerTask, threads_,
-                 [&](std::size_t begin, std::size_t end) { projectionKernel<Real>()(candidates, a, begin, end); });
-  return sums;
+  if constexpr (std::is_same<Real, float>::value)
+    if (!merged_.empty()) {
+      a.data = merged_.positions.vectors();
+      a.data_normals = merged_.normals.vectors();
+      a.data_weight = merged_.weights.data();
+    }
+  a.variance = parameters.variance_update != VarianceUpdate::Fixed;
+  return a;
 }
 
 template <typename Real>
@@ -239,6 +262,8 @@ bool
 GPFSolver<Real>::isIsolated(std::size_t m, double weight) const
 {
   constexpr double kRounding = 1e-4; // of the short exponential and of sums in float
+  if (point_weight_.empty() && weight > 1.0 + kRounding) // the seed alone weighs no more than 1
+    return false;
   const std::size_t seed = cloud_.seedOf(m);
   const kernels::Vectors<Real> from = cloud_.points();
   const SortedVectors<Real>& samples = cloud_.samples();
@@ -255,13 +280,13 @@ GPFSolver<Real>::isIsolated(std::size_t m, double weight) const
 /** Eq. 10 for one sample: the mean pull of the data, and the mean push of the other samples times mu. */
 template <typename Real>
 typename GPFSolver<Real>::Step
-GPFSolver<Real>::stepOf(std::size_t m, const DataSums& data, const RepulsionSums& repulsion, double mu) const
+GPFSolver<Real>::stepOf(std::size_t m, const DataSums& data, std::size_t place, const RepulsionSums& repulsion, double mu) const
 {
   Step step;
-  if (data.weight[m] > Real(0)) {
-    step.x = data.pull.x[m] / data.weight[m];
-    step.y = data.pull.y[m] / data.weight[m];
-    step.z = data.pull.z[m] / data.weight[m];
+  if (data.weight[place] > Real(0)) {
+    step.x = data.pull.x[place] / data.weight[place];
+    step.y = data.pull.y[place] / data.weight[place];
+    step.z = data.pull.z[place] / data.weight[place];
   }
   if (!(mu > 0.0) || !(repulsion.weight[m] > Real(0)))
     return step;
@@ -280,32 +305,48 @@ GPFSolver<Real>::stepOf(std::size_t m, const DataSums& data, const RepulsionSums
   return step;
 }
 
+/** Moves the samples [begin, end), whose sums are in `data`. */
 template <typename Real>
-IterationStats
-GPFSolver<Real>::move(const DataSums& data, const RepulsionSums& repulsion)
+void
+GPFSolver<Real>::moveBlock(std::size_t begin, std::size_t end, const DataSums& data, const RepulsionSums& repulsion, MoveSums& sum)
 {
-  constexpr std::size_t kPointsPerTask = 8192; // fixed, so that sums do not depend on the number of threads
   SortedVectors<Real>& samples = cloud_.samples();
   const double mu = repulsion.weight.empty() ? 0.0 : repulsionWeight();
   const bool variance = !data.posterior.empty();
-  std::vector<MoveSums> partials((samples.size() + kPointsPerTask - 1) / kPointsPerTask);
-  parallelBlocks(samples.size(), kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
-    MoveSums& sum = partials[begin / kPointsPerTask];
-    for (std::size_t m = begin; m < end; ++m) {
-      const Step step = stepOf(m, data, repulsion, mu);
-      isolated_[m] = isIsolated(m, static_cast<double>(data.weight[m]));
-      sum.isolated += isolated_[m];
-      sum.posterior += variance ? data.posterior[m] : data.weight[m];
-      if (variance)
-        sum.residual += data.residualAfter(m, step.x, step.y, step.z);
-      samples.x[m] += step.x;
-      samples.y[m] += step.y;
-      samples.z[m] += step.z;
-      const double x = step.x, y = step.y, z = step.z;
-      const double length = std::sqrt(x * x + y * y + z * z);
-      sum.movement += length;
-      sum.longest = std::max(sum.longest, length);
-    }
+  for (std::size_t m = begin; m < end; ++m) {
+    const std::size_t place = m - begin;
+    const Step step = stepOf(m, data, place, repulsion, mu);
+    isolated_[m] = isIsolated(m, static_cast<double>(data.weight[place]));
+    sum.isolated += isolated_[m];
+    sum.posterior += variance ? data.posterior[place] : data.weight[place];
+    if (variance)
+      sum.residual += data.residualAfter(place, step.x, step.y, step.z);
+    samples.x[m] += step.x;
+    samples.y[m] += step.y;
+    samples.z[m] += step.z;
+    const double x = step.x, y = step.y, z = step.z;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    sum.movement += length;
+    sum.longest = std::max(sum.longest, length);
+  }
+}
+
+/** Sums over the data and moves the samples, block by block: their data stand still, and the push of other samples is known. */
+template <typename Real>
+IterationStats
+GPFSolver<Real>::move(const RepulsionSums& repulsion)
+{
+  const kernels::Candidates candidates = candidatesOf(current(data_neighborhoods_, false, true));
+  const kernels::Projection<Real> term = dataTerm();
+  const std::size_t blocks = blockCount(size());
+  std::vector<MoveSums> partials((blocks + kBlocksPerTask - 1) / kBlocksPerTask);
+  parallelBlocks(blocks, kBlocksPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    DataSums data(kBlocksPerTask * kQueryBlock, term.variance);
+    kernels::Projection<Real> a = term;
+    a.first_output = begin * kQueryBlock;
+    data.receive(a);
+    projectionKernel<Real>()(candidates, a, begin, end);
+    moveBlock(a.first_output, std::min(size(), end * kQueryBlock), data, repulsion, partials[begin / kBlocksPerTask]);
   });
   MoveSums total;
   for (const MoveSums& partial : partials)
@@ -367,10 +408,19 @@ GPFSolver<Real>::current(MovingNeighborhoods& moving, bool data_are_samples, boo
     const PointsView samples = cloud_.samples().floatView(float_samples_), sorted = cloud_.index().sorted();
     if (data_are_samples)
       sample_tree_.fit(samples, threads_);
-    moving.set(neighborhoods(data_are_samples ? sample_tree_ : cloud_.index().tree(), data_are_samples ? samples : sorted,
+    const ClusterTree& data_tree = merged_.empty() ? cloud_.index().tree() : merged_.tree;
+    moving.set(neighborhoods(data_are_samples ? sample_tree_ : data_tree, data_are_samples ? samples : sorted,
                              queries_are_samples ? samples : sorted, moving.reach()));
   }
   return moving.get();
+}
+
+template <typename Real>
+void
+GPFSolver<Real>::releaseNeighborhoods()
+{
+  for (MovingNeighborhoods* lists : {&data_neighborhoods_, &posterior_neighborhoods_, &repulsion_neighborhoods_})
+    lists->release();
 }
 
 template <typename Real>
@@ -378,8 +428,10 @@ std::vector<std::uint8_t>
 GPFSolver<Real>::isolated() const
 {
   std::vector<std::uint8_t> out(size());
-  for (std::size_t s = 0; s < size(); ++s)
-    out[cloud_.rankOf(s)] = isolated_[s];
+  parallelBlocks(size(), kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s)
+      out[cloud_.rankOf(s)] = isolated_[s];
+  });
   return out;
 }
 

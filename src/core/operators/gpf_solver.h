@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "../merged_points.h"
 #include "../moving_neighborhoods.h"
 #include "gpf_points.h"
 
@@ -28,6 +29,9 @@ struct GPFState::Implementation {
   normals(MutableVectorsView out) const = 0;
   virtual std::vector<std::uint8_t>
   isolated() const = 0;
+  /** Frees the lists of neighbours; a further step would make them anew. */
+  virtual void
+  releaseNeighborhoods() = 0;
 };
 
 /** The recursion of Algorithm 1 on points sorted along a Hilbert curve. */
@@ -60,6 +64,8 @@ public:
   }
   std::vector<std::uint8_t>
   isolated() const override;
+  void
+  releaseNeighborhoods() override;
 
 private:
   struct DataSums;
@@ -86,17 +92,21 @@ private:
   void
   evaluateDensities();
   void
+  mergeData();
+  void
   evaluatePosteriorDenominators();
-  DataSums
-  evaluateDataTerm();
+  kernels::Projection<Real>
+  dataTerm() const;
   RepulsionSums
   evaluateRepulsion();
   bool
   isIsolated(std::size_t m, double weight) const;
   Step
-  stepOf(std::size_t m, const DataSums& data, const RepulsionSums& repulsion, double mu) const;
+  stepOf(std::size_t m, const DataSums& data, std::size_t place, const RepulsionSums& repulsion, double mu) const;
+  void
+  moveBlock(std::size_t begin, std::size_t end, const DataSums& data, const RepulsionSums& repulsion, MoveSums& sum);
   IterationStats
-  move(const DataSums& data, const RepulsionSums& repulsion);
+  move(const RepulsionSums& repulsion);
   IterationStats
   finishIteration(const MoveSums& total);
   double
@@ -117,6 +127,7 @@ private:
   ClusterTree sample_tree_;
   std::vector<std::uint8_t> isolated_; ///< in sorted order
 
+  MergedPoints merged_; ///< data where balls hold many points; empty: the points themselves
   AlignedArray<Real> point_weight_;  ///< 1 / denominator of eq. 3, or 1
   AlignedArray<Real> inverse_density_; ///< 1 / rho_n, or 1
   MovingNeighborhoods data_neighborhoods_, posterior_neighborhoods_, repulsion_neighborhoods_;

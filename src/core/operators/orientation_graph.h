@@ -10,7 +10,7 @@
 
 namespace pcl_gpf {
 
-/** Votes are whole numbers, so that their sums do not depend on the order: this much is certainty. */
+/** Votes are kept as whole numbers, which halves their memory: this much is certainty. */
 constexpr int kFullVote = 1024;
 
 /** Rows of votes: that of i says which sign each of its neighbours has relative to i (positive: the same). */

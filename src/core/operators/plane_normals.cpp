@@ -4,6 +4,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "../check_range.h"
+#include "../merged_points.h"
 #include "../sorted_points.h"
 
 #include <algorithm>
@@ -100,10 +101,14 @@ fitMoments(const MomentSums& m, std::size_t i)
 }
 
 kernels::Moments
-momentsInto(MomentSums& sums, PointsView points, double radius)
+momentsInto(MomentSums& sums, PointsView points, const MergedPoints& merged, double radius)
 {
   kernels::Moments a;
   a.queries = a.data = {points.x, points.y, points.z};
+  if (!merged.empty()) {
+    a.data = merged.positions.vectors();
+    a.data_weight = merged.weights.data();
+  }
   a.radius.radius_sq = static_cast<float>(radius * radius);
   a.count = sums.count.data();
   a.mean = sums.mean.vectors();
@@ -147,14 +152,15 @@ estimatePlaneNormals(const PlaneNormalsParameters& parameters, const PointIndex&
   const std::size_t threads = resolveThreads(parameters.number_of_threads);
   const PointsView view = points.sorted();
   const double radius = boundedRadius(parameters.radius);
-  const Neighborhoods near = findNeighborhoods(points.tree(), view, radius, threads);
+  const MergedPoints merged = mergePoints(points, {}, {radius}, parameters.merge_above, false, threads);
+  const Neighborhoods near = findNeighborhoods(merged.empty() ? points.tree() : merged.tree, view, radius, threads);
   const kernels::Candidates candidates = candidatesOf(near);
   const std::size_t blocks = blockCount(view.size);
   std::vector<std::size_t> failures((blocks + kBlocksPerTask - 1) / kBlocksPerTask);
   parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
     const std::size_t first = begin * kQueryBlock, last = std::min(view.size, end * kQueryBlock);
     MomentSums sums(kBlocksPerTask * kQueryBlock); // of this task alone, so that it is still in the cache when planes are fitted
-    kernels::Moments a = momentsInto(sums, view, radius);
+    kernels::Moments a = momentsInto(sums, view, merged, radius);
     a.first_output = first;
     kernels::active().moments(candidates, a, begin, end);
     std::vector<float> distances_sq;

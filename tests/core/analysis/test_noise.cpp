@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/core/analysis/noise.h>
 #include <pcl_gpf/core/analysis/spacing.h>
+#include <pcl_gpf/core/local_frame.h>
 
 #include <gtest/gtest.h>
 
@@ -22,28 +23,120 @@ noiseOf(const Shape& shape, double scale = 1.0, unsigned threads = 0)
 }
 
 using Maker = Shape (*)(std::size_t count, double noise, std::uint64_t seed);
-struct Case {
+double
+diagonalOf(const Shape& shape)
+{
+  BoundingBox box;
+  for (const Vector3& p : shape.points)
+    box.add(p[0], p[1], p[2]);
+  return box.diagonal();
+}
+
+/** \brief Replaces the first points by ones anywhere in a box 1.2 times as large. */
+Shape
+withOutliers(Shape shape, double share)
+{
+  SplitMix64 random(99);
+  Vector3 low = shape.points[0], high = low;
+  for (const Vector3& p : shape.points)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::fmin(low[axis], p[axis]);
+      high[axis] = std::fmax(high[axis], p[axis]);
+    }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(share * static_cast<double>(shape.size())); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      shape.points[i][axis] = low[axis] + (1.2 * random.uniform() - 0.1) * (high[axis] - low[axis]);
+  return shape;
+}
+
+/** \brief A unit square whose density falls as 1 / sqrt(x). */
+Shape
+denseAtOneEnd(std::size_t count, double noise, std::uint64_t seed)
+{
+  return sampleShape(count, noise, seed, [](SplitMix64& random, Vector3& point, Vector3& normal) {
+    const double root = random.uniform();
+    point = {root * root, random.uniform(), 0};
+    normal = {0, 0, 1};
+  });
+}
+
+struct NoiseCase {
   const char* name;
   Maker make;
   double diagonal;
 };
 
+const NoiseCase kNoiseCases[] = {
+  {"plane", plane, std::sqrt(2.0)},  {"cube", cube, std::sqrt(3.0)}, {"sphere", sphere, std::sqrt(3.0)},
+  {"torus", torus, diagonalOf(torus(100000))}, {"scan lines", scanLines, diagonalOf(scanLines(100000))},
+  {"dense at one end", denseAtOneEnd, std::sqrt(2.0)}};
+
 TEST(Noise, isFoundWithinAFifth)
 {
-  const Case cases[] = {{"plane", plane, std::sqrt(2.0)}, {"cube", cube, std::sqrt(3.0)}, {"sphere", sphere, std::sqrt(3.0)}};
-  for (const Case& c : cases)
-    for (const double percent : {0.25, 0.5, 1.0})
-      for (const std::uint64_t seed : {1u, 2u}) {
+  for (const NoiseCase& c : kNoiseCases)
+    for (const std::size_t count : {10000u, 80000u})
+      for (const double percent : {0.1, 0.25, 0.5, 1.0, 1.5, 3.0}) {
+        if (count > 10000u && percent != 0.25 && percent != 3.0)
+          continue; // time
         const double sigma = percent / 100 * c.diagonal;
-        EXPECT_NEAR(noiseOf(turned(c.make(20000, sigma, seed))) / sigma, 1.0, 0.2) << c.name << " " << percent << " %";
+        EXPECT_NEAR(noiseOf(turned(c.make(count, sigma, 1))) / sigma, 1.0, 0.2) << c.name << " " << count << " " << percent << " %";
       }
+}
+
+TEST(Noise, isFoundFarAboveTheSpacing)
+{
+  const double sigma = 0.03 * std::sqrt(3.0); // 15 spacings
+  EXPECT_NEAR(noiseOf(turned(cube(500000, sigma, 1))) / sigma, 1.0, 0.2);
+}
+
+TEST(Noise, alongTheNormalOrUniformIsFound)
+{
+  for (const NoiseCase& c : kNoiseCases)
+    for (const double percent : {0.25, 1.5}) {
+      const double sigma = percent / 100 * c.diagonal;
+      SplitMix64 random(7);
+      Shape along = c.make(20000, 0, 1), uniform = along;
+      for (std::size_t i = 0; i < along.size(); ++i) {
+        const double step = sigma * random.normal();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          along.points[i][axis] += step * along.normals[i][axis];
+          uniform.points[i][axis] += std::sqrt(3.0) * sigma * (2 * random.uniform() - 1);
+        }
+      }
+      EXPECT_NEAR(noiseOf(turned(along)) / sigma, 1.0, 0.2) << c.name << " " << percent << " %";
+      EXPECT_NEAR(noiseOf(turned(uniform)) / sigma, 1.0, 0.2) << c.name << " " << percent << " %";
+    }
+}
+
+TEST(Noise, isFoundAmongOutliers)
+{
+  for (const NoiseCase& c : kNoiseCases)
+    for (const double share : {0.01, 0.05})
+      for (const double percent : {0.25, 1.0}) {
+        const double sigma = percent / 100 * c.diagonal;
+        const Shape shape = turned(withOutliers(c.make(20000, sigma, 1), share));
+        EXPECT_NEAR(noiseOf(shape) / sigma, 1.0, 0.2) << c.name << " " << percent << " % outliers " << share;
+      }
+}
+
+TEST(Noise, ofTwoCloseSheetsIsThatOfOne)
+{
+  const double sigma = 0.0025 * std::sqrt(2.0);
+  for (const std::size_t count : {10000u, 33490u}) {
+    const double gap = 4 * std::sqrt(2.0 / static_cast<double>(count));
+    EXPECT_NEAR(noiseOf(turned(sheets(count, gap, sigma, 1))) / sigma, 1.0, 0.2) << count;
+  }
 }
 
 TEST(Noise, ofACleanSurfaceIsFarBelowItsSpacing)
 {
-  EXPECT_LT(noiseOf(turned(plane(5000))), 1e-5);
-  EXPECT_LT(noiseOf(turned(sphere(5000))), 0.05 * std::sqrt(3.14 / 5000));
-  EXPECT_LT(noiseOf(turned(cube(5000))), 0.05 * std::sqrt(6.0 / 5000));
+  for (const std::size_t count : {5000u, 50000u}) {
+    const auto n = static_cast<double>(count);
+    EXPECT_LT(noiseOf(turned(plane(count))), 0.02 * std::sqrt(1.0 / n));
+    EXPECT_LT(noiseOf(turned(sphere(count))), 0.02 * std::sqrt(3.14 / n));
+    EXPECT_LT(noiseOf(turned(cube(count))), 0.02 * std::sqrt(6.0 / n));
+    EXPECT_LT(noiseOf(turned(torus(count))), 0.02 * std::sqrt(13.8 / n));
+  }
 }
 
 TEST(Noise, scalesWithTheCloud)
@@ -64,6 +157,8 @@ TEST(Noise, isZeroWhereNothingCanBeMeasured)
 {
   EXPECT_EQ(noiseOf(Shape{}), 0.0);
   EXPECT_EQ(noiseOf(cube(15, 0.1, 1)), 0.0);
+  EXPECT_EQ(noiseOf(cube(47, 0.1, 1)), 0.0);
+  EXPECT_GT(noiseOf(cube(48, 0.1, 1)), 0.0);
   Shape identical;
   for (int i = 0; i < 1000; ++i)
     append(identical, {1, 2, 3}, {0, 0, 1});

@@ -46,8 +46,9 @@ TEST(MeasureScale, putsItsMeasurementsTogether)
   const CloudScale scale = measureScale(points.view());
   EXPECT_NEAR(scale.diagonal, box.diagonal(), 1e-12);
   EXPECT_NEAR(scale.h0, box.diagonal() / std::sqrt(4000.0), 1e-12);
-  EXPECT_EQ(scale.spacing, estimateSpacing(points.view()));
-  EXPECT_EQ(scale.noise, estimateNoise(points.view(), scale.spacing));
+  const double apparent = estimateSpacing(points.view());
+  EXPECT_EQ(scale.noise, estimateNoise(points.view(), apparent));
+  EXPECT_EQ(scale.spacing, spacingWithoutNoise(apparent, scale.noise));
   EXPECT_EQ(measureScale({}).diagonal, 0.0);
 }
 

@@ -28,6 +28,28 @@ TEST(Spacing, isTheRootOfTheAreaPerPoint)
   }
 }
 
+TEST(Spacing, withoutNoiseIsThatOfTheCleanSurface)
+{
+  for (const double noises : {0.3, 1.0, 3.0, 10.0})
+    for (const std::size_t size : {20000u, 200000u}) {
+      const auto n = static_cast<double>(size);
+      const double square = std::sqrt(1.0 / n), ball = std::sqrt(kPi / n);
+      if (noises * ball < 0.03) { // up to 3 % of the diagonal; the border of the square counts for more and more beyond
+        EXPECT_NEAR(spacingWithoutNoise(spacingOf(plane(size, noises * square)), noises * square), square, 0.1 * square) << noises;
+        EXPECT_NEAR(spacingWithoutNoise(spacingOf(sphere(size, noises * ball)), noises * ball), ball, 0.1 * ball) << noises;
+      }
+    }
+}
+
+TEST(Spacing, withoutNoiseTakesNothingAwayWhenThereIsNone)
+{
+  EXPECT_EQ(spacingWithoutNoise(0.5, 0.0), 0.5);
+  EXPECT_EQ(spacingWithoutNoise(0.0, 0.5), 0.0);
+  EXPECT_NEAR(spacingWithoutNoise(0.5, 1e-9), 0.5, 1e-9);
+  EXPECT_NEAR(spacingWithoutNoise(0.5e-6, 1e-6), 1e-6 * spacingWithoutNoise(0.5, 1.0), 1e-18);
+  EXPECT_GT(spacingWithoutNoise(1e-9, 1.0), 0.0);
+}
+
 TEST(Spacing, isNearlyTheStepOfAGrid)
 {
   Shape grid;

@@ -107,14 +107,14 @@ struct GaussianCase : KernelCase<Real> {
 
 template <typename Real>
 struct ProjectionCase : KernelCase<Real> {
-  bool symmetric = false, normal_weights = false, weighted = false, variance = false;
+  bool symmetric = false, normal_weights = false, weighted = false, variance = false, density = weighted;
   double falloff = 3, symmetry_falloff = 7.5, normal_falloff = 3.4, normal_floor = 0.15;
 
   std::string
   name() const
   {
     return std::string("projection") + (symmetric ? " symmetric" : "") + (normal_weights ? " normals" : "") +
-           (weighted ? " weighted" : "") + (variance ? " variance" : "");
+           (weighted ? " weighted" : "") + (density ? " densities" : "") + (variance ? " variance" : "");
   }
   std::size_t channels() const { return variance ? 15 : 4; }
   void
@@ -133,7 +133,7 @@ struct ProjectionCase : KernelCase<Real> {
     a.normal_falloff = static_cast<Real>(normal_falloff);
     a.normal_floor = static_cast<Real>(normal_floor);
     a.data_weight = weighted ? in.weight.data() : nullptr;
-    a.data_density = weighted ? in.density.data() : nullptr;
+    a.data_density = density ? in.density.data() : nullptr;
     a.weight_sum = out.channel(0);
     a.pull = out.vectors(1);
     a.variance = variance;
@@ -156,7 +156,7 @@ struct ProjectionCase : KernelCase<Real> {
     const double posterior = std::exp(-falloff * p.r_sq / p.radius_sq) * (weighted ? p.weight : 1.0);
     const double deviation = 1 - std::abs(p.cosine());
     const double by_normal = normal_weights ? normal_floor + (1 - normal_floor) * bell(deviation * normal_falloff) : 1.0;
-    const double weight = posterior * (weighted ? p.density : 1.0) * by_normal;
+    const double weight = posterior * (density ? p.density : 1.0) * by_normal;
     const double share = symmetric ? 0.5 * bell(deviation * symmetry_falloff) : 0.0;
     std::vector<Term> sums = {{weight, weight}};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -221,10 +221,10 @@ struct RepulsionCase : KernelCase<Real> {
 };
 
 struct BilateralCase : KernelCase<float> {
-  bool sign_invariant = true;
+  bool sign_invariant = true, weighted = false;
   double falloff = 1, angle_falloff = 7.5;
 
-  std::string name() const { return std::string("bilateral normals") + (sign_invariant ? " sign-invariant" : " oriented"); }
+  std::string name() const { return std::string("bilateral normals") + (sign_invariant ? " sign-invariant" : " oriented") + (weighted ? " weighted" : ""); }
   std::size_t channels() const { return 3; }
   void
   run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
@@ -238,6 +238,7 @@ struct BilateralCase : KernelCase<float> {
     a.falloff = static_cast<float>(falloff);
     a.angle_falloff = static_cast<float>(angle_falloff);
     a.sign_invariant = sign_invariant;
+    a.data_weight = weighted ? in.weight.data() : nullptr;
     a.out = out.vectors(0);
     set.bilateral_normals(candidatesOf(in.near), a, 0, blockCount(in.query_count));
   }
@@ -246,7 +247,7 @@ struct BilateralCase : KernelCase<float> {
   {
     const double cosine = p.cosine();
     const double deviation = (1 - (sign_invariant ? std::abs(cosine) : cosine)) * angle_falloff;
-    const double weight = std::exp(-falloff * p.r_sq / p.radius_sq) * std::exp(-deviation * deviation);
+    const double weight = std::exp(-falloff * p.r_sq / p.radius_sq) * std::exp(-deviation * deviation) * (weighted ? p.weight : 1.0);
     const double sign = sign_invariant && cosine < 0 ? -1 : 1;
     const double rounding = 1 + 2 * deviation * angle_falloff; // of the exponent
     std::vector<Term> sums;
@@ -257,7 +258,9 @@ struct BilateralCase : KernelCase<float> {
 };
 
 struct MomentsCase : KernelCase<float> {
-  std::string name() const { return "moments"; }
+  bool weighted = false;
+
+  std::string name() const { return std::string("moments") + (weighted ? " weighted" : ""); }
   std::size_t channels() const { return 10; }
   void
   run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
@@ -266,6 +269,7 @@ struct MomentsCase : KernelCase<float> {
     a.queries = in.queries.vectors();
     a.data = in.data.vectors();
     a.radius = radius(in);
+    a.data_weight = weighted ? in.weight.data() : nullptr;
     a.count = out.channel(0);
     a.mean = out.vectors(1);
     a.scatter_diagonal = out.vectors(4);
@@ -276,13 +280,49 @@ struct MomentsCase : KernelCase<float> {
   terms(const Pair& p) const
   {
     const auto& d = p.d;
-    std::vector<Term> sums = {{1, 1}};
+    const double weight = weighted ? p.weight : 1.0;
+    std::vector<Term> sums = {{weight, weight}};
     for (const double component : d)
-      sums.push_back({component, std::abs(component)});
+      sums.push_back({weight * component, weight * std::abs(component)});
     for (const double product : {d[0] * d[0], d[1] * d[1], d[2] * d[2], d[1] * d[2], d[0] * d[2], d[0] * d[1]})
-      sums.push_back({product, std::abs(product)});
+      sums.push_back({weight * product, weight * std::abs(product)});
     return sums;
   }
+};
+
+struct FieldCase : KernelCase<float> {
+  bool normals = false;
+
+  std::string name() const { return std::string("field sums") + (normals ? " normals" : ""); }
+  std::size_t channels() const { return 4; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    kernels::FieldSums a;
+    a.queries = in.queries.vectors();
+    a.query_normals = in.query_normals.vectors();
+    a.data = in.data.vectors();
+    a.data_normals = in.data_normals.vectors();
+    a.radius = radius(in);
+    a.normal_falloff = normals ? kFalloff : 0.0f;
+    a.first_field = in.weight.data();
+    a.second_field = in.density.data();
+    a.count = out.channel(0);
+    a.weight_sum = out.channel(1);
+    a.first_sum = out.channel(2);
+    a.second_sum = out.channel(3);
+    set.field_sums(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const double weight = normals ? bell((1 - std::abs(p.cosine())) * kFalloff) : 1.0;
+    const double scale = normals ? 8.0 : 1.0; // the fourth power and the cancellation in 1 - |cos| multiply rounding
+    return {{1, 1}, {weight, scale}, {weight * p.weight, scale * std::abs(p.weight)}, {weight * p.density, scale * std::abs(p.density)}};
+  }
+
+private:
+  static constexpr float kFalloff = 7.5f;
 };
 
 /** The sums of a RIMLS fit; the radius is the datum's. */
@@ -372,15 +412,19 @@ forEveryCase(const Visit& visit)
     visit(GaussianCase<Real>{{per_query}});
     for (unsigned bits = 0; bits < 12; ++bits)
       visit(ProjectionCase<Real>{{per_query}, (bits & 1) != 0, (bits & 2) != 0, bits >= 4, bits >= 8});
-    // Falloffs up to 1 take the short exponential in float.
-    visit(ProjectionCase<Real>{{per_query, 1.1e-6}, true, true, false, false, 0.5});
-    visit(ProjectionCase<Real>{{per_query, 1.1e-6}, false, false, false, false, 1.0});
+    // Falloffs up to one half take the short exponential in float.
+    for (const bool weighted : {false, true})
+      for (const double falloff : {0.5, 1.0})
+        visit(ProjectionCase<Real>{{per_query, 8e-7}, weighted || falloff < 1, true, weighted, false, false, falloff});
     for (const bool weighted : {false, true})
       visit(RepulsionCase<Real>{{per_query}, weighted});
     if constexpr (std::is_same<Real, float>::value) {
-      for (const bool sign_invariant : {false, true})
-        visit(BilateralCase{{per_query}, sign_invariant});
-      visit(MomentsCase{{per_query}});
+      for (const bool weighted : {false, true}) {
+        for (const bool sign_invariant : {false, true})
+          visit(BilateralCase{{per_query}, sign_invariant, weighted});
+        visit(MomentsCase{{per_query}, weighted});
+        visit(FieldCase{{per_query}, weighted});
+      }
       visit(ImplicitCase{per_query}); // plain and robust
     }
   }

@@ -85,6 +85,7 @@ private:
   chooseRuns(SplitMix64& random)
   {
     near.query_count = query_count;
+    near.absent = data_count;
     near.run_offsets.push_back(0);
     for (std::size_t block = 0; block < blockCount(query_count); ++block) {
       std::vector<std::uint32_t> streamed;

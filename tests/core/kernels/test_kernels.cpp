@@ -119,11 +119,12 @@ TYPED_TEST(Kernels, workOnPartOfTheBlocks)
 template <typename Real>
 struct ExpInput {
   static constexpr std::size_t kQueries = 1 << 18;
-  SortedVectors<Real> queries{kQueries, Real(0)}, normals{kQueries, Real(0)}, data{1, Real(0)};
+  SortedVectors<Real> queries{kQueries, Real(0)}, normals{kQueries, Real(0)}, data{1, Real(kFarAway)};
   Neighborhoods near;
 
   explicit ExpInput(double longest_argument)
   {
+    data.x[0] = data.y[0] = data.z[0] = Real(0);
     SplitMix64 random(1);
     for (std::size_t q = 0; q < kQueries; ++q) {
       // Half of the arguments evenly spread, half of them by magnitude, down to 1e-20.
@@ -132,6 +133,7 @@ struct ExpInput {
       queries.x[q] = static_cast<Real>(std::sqrt(argument));
     }
     near.query_count = kQueries;
+    near.absent = 1;
     near.runs.assign(blockCount(kQueries), Run{0, 1});
     near.run_offsets.resize(blockCount(kQueries) + 1);
     std::iota(near.run_offsets.begin(), near.run_offsets.end(), std::size_t{0});
@@ -172,14 +174,14 @@ largestExpError(const kernels::KernelSet& set, double longest_argument)
 double
 largestGentleExpError(const kernels::KernelSet& set)
 {
-  const ExpInput<float> in(0.999);
+  const ExpInput<float> in(0.4999);
   AlignedArray<float> out(in.kQueries + kQueryBlock);
   SortedVectors<float> pull(in.kQueries);
   kernels::Projection<float> a;
   a.queries = in.queries.vectors();
   a.data = in.data.vectors();
   a.query_normals = a.data_normals = in.normals.vectors();
-  a.radius.radius_sq = a.falloff = 1.0f;
+  a.radius.radius_sq = a.falloff = 0.5f; // their quotient is exactly 1
   a.weight_sum = out.data();
   a.pull = pull.vectors();
   set.projection_float(candidatesOf(in.near), a, 0, blockCount(in.kQueries));
@@ -193,7 +195,7 @@ TEST(KernelExp, isAsAccurateAsItsCommentSays)
                              largestGentleExpError(*target->set)};
     EXPECT_LT(errors[0], 3e-7) << target->name;
     EXPECT_LT(errors[1], 4e-16) << target->name;
-    EXPECT_LT(errors[2], 1.1e-6) << target->name;
+    EXPECT_LT(errors[2], 8e-7) << target->name;
     EXPECT_GT(errors[0], 1e-9) << "nothing was measured";
     RecordProperty(std::string(target->name) + "_float_1e-9", static_cast<int>(errors[0] * 1e9));
     RecordProperty(std::string(target->name) + "_double_1e-18", static_cast<int>(errors[1] * 1e18));

@@ -7,14 +7,17 @@
 
 namespace pcl_gpf {
 
-/** \brief Standard deviation of the noise along the surface normal, from the residuals of quadric fits to local patches, each the
- * smallest of 48 to 768 neighbours that is clearly a surface; the 35 % quantile over patches, so that edges do not count.
+/** \brief Standard deviation of the noise along the surface normal, from the residuals of quadric fits to local patches, each about
+ * three times as wide as the noise that it shows; a low quantile over patches, so that edges and outliers do not count.
  *
- * Within about 10 % on smooth and on sharp-edged shapes up to noise of the patches' own size; too high where noise rivals the parts.
+ * Within a fifth on smooth and on sharp-edged shapes for noise from well below the spacing up to 3 % of the diagonal, at any density and
+ * with 5 % of outliers. Too high where parts or gaps are narrower than about five times the noise, or than two spacings; too low where
+ * the noise runs along the normal only and walls lower than it are many.
  *
  * \param[in] points in any one unit; the result is in the same
  * \param[in] spacing of the points (estimateSpacing())
  * \return 0 for fewer than 48 points
+ * Cost: one or two thousand fits to a few hundred points, whatever the number of points; a tree over an eighth of them.
  */
 PCL_GPF_CORE_EXPORT double
 estimateNoise(PointsView points, double spacing, unsigned number_of_threads = 0);

@@ -15,7 +15,7 @@ namespace pcl_gpf {
 
 /** \brief What is known of a cloud before it is filtered, in the unit of its points. */
 struct CloudScale {
-  double spacing = 0;  ///< estimateSpacing()
+  double spacing = 0;  ///< estimateSpacing(), less what noise adds to it
   double noise = 0;    ///< estimateNoise(), standard deviation along the normal
   double diagonal = 0; ///< of the bounding box
   double h0 = 0;       ///< the paper's unit, diagonal / sqrt(N)
@@ -37,6 +37,9 @@ struct ParameterOrigin {
   std::string reason; ///< one phrase, for example "12 x noise"
 };
 
+/** \brief Which lengths are estimated: those of a filter that runs alone, or of the two between which selectFineScale() chooses. */
+enum class FilterScale { Single, Coarse, Fine };
+
 /** \brief Fills every parameter that is 0 = estimated from the scale of the cloud and tells why.
  *
  * Fields that are already set stay and are reported as "user".
@@ -45,6 +48,7 @@ PCL_GPF_CORE_EXPORT std::vector<ParameterOrigin>
 estimateParameters(const CloudScale& scale,
                    PlaneNormalsParameters& normals,
                    BilateralNormalsParameters& bilateral,
-                   GPFParameters& gpf);
+                   GPFParameters& gpf,
+                   FilterScale filter_scale = FilterScale::Single);
 
 } // namespace pcl_gpf

@@ -32,6 +32,11 @@ struct BilateralNormalsParameters {
    * consistently oriented normals. */
   bool sign_invariant = true;
 
+  /** Where a ball holds more points than this, means of neighbouring points that face the same way stand for them, at least half as
+   * many as this: all rounds but the last filter the means, the last gives every point its own normal. 0 = never; no effect on
+   * oriented normals. Bounds the time of dense clouds; sparse parts, whose balls hold fewer, are not changed. */
+  unsigned merge_above = 200;
+
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
 };

@@ -79,6 +79,11 @@ struct GPFParameters {
   /** Stops when the mean movement of an iteration is below this share of h, >= 0; 0 = always run to the maximum. */
   double convergence_threshold = 1e-4;
 
+  /** Where a data ball holds more points than this, means of neighbouring points that face the same way stand for them, at least half
+   * as many as this; 0 = never. Bounds the time of dense clouds; sparse parts, whose balls hold fewer, are not changed at all.
+   * Without effect where the recursion runs in double or has density weights. */
+  unsigned merge_above = 200;
+
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
 

@@ -61,7 +61,7 @@ struct NormalOrientationStatistics {
  *
  * \param[in] points N finite positions \param[in,out] normals N unit vectors in sorted order, any signs
  * \param[in] viewpoint in the frame of the points, or null
- * Cost: O(N) after N queries of k neighbours; memory about 20 k bytes a point.
+ * Cost: O(N) after N queries of k neighbours; memory about 15 k bytes a point.
  * \throws InvalidParameter, Cancelled
  */
 PCL_GPF_CORE_EXPORT NormalOrientationStatistics

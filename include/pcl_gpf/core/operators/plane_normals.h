@@ -14,6 +14,9 @@ struct PlaneNormalsParameters {
   /** Radius of the neighbourhood in the unit of the points, >= 0; 0 = estimated. Points with fewer than 6 neighbours in it, or
    * only those of one scan line, get the plane of their 12, 32 or 96 nearest, the first of these that is not a line. */
   double radius = 0.0;
+  /** Where a ball holds more points than this, means of neighbouring points stand for them, at least half as many as this;
+   * 0 = never. */
+  unsigned merge_above = 200;
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
 };

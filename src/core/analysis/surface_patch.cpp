@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr int kTerms = 6;
+constexpr std::size_t kFewestPoints = kTerms + 3;
+constexpr int kRounds = 2;
+/** The first window is wider by this: the plane it is laid along is only roughly that of the surface. */
+constexpr double kFirstWindow = 4.0 / 3.0;
+/** Second eigenvalue below this share of the largest: a scan line, even one whose noise is wider than its steps. */
+constexpr double kNarrowRatio = 0.15;
+
+using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+Eigen::Map<const Eigen::Vector3d>
+vector(const Offset& p)
+{
+  return Eigen::Map<const Eigen::Vector3d>(p.data());
+}
+
+/** Second-degree terms of the place of a point in its plane; the height is in row 0. */
+Terms
+termsAt(const Eigen::Vector3d& p)
+{
+  Terms terms;
+  terms << 1.0, p[1], p[2], p[1] * p[1], p[1] * p[2], p[2] * p[2];
+  return terms;
+}
+
+struct PrincipalFrame {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d axes; ///< columns: normal, then the plane
+  bool narrow;
+};
+
+/** \return axes of zeros when all points coincide */
+PrincipalFrame
+principalFrame(const std::vector<Offset>& points)
+{
+  PrincipalFrame frame{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), true};
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Offset& p : points)
+    frame.mean += vector(p);
+  frame.mean /= static_cast<double>(points.size());
+  for (const Offset& p : points)
+    scatter.noalias() += (vector(p) - frame.mean) * (vector(p) - frame.mean).transpose();
+  if (!(scatter.trace() > 0.0))
+    return frame;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.compute(scatter / scatter.trace());
+  frame.axes = solver.eigenvectors();
+  frame.narrow = solver.eigenvalues()[1] < kNarrowRatio * solver.eigenvalues()[2];
+  return frame;
+}
+
+/** Least squares over the points whose height is within `window` of the surface `from`. \return how many those are */
+std::size_t
+fitHeights(const std::vector<Eigen::Vector3d>& points, double window, Terms& surface)
+{
+  Eigen::Matrix<double, kTerms, kTerms> normal_matrix = Eigen::Matrix<double, kTerms, kTerms>::Zero();
+  Terms right = Terms::Zero();
+  std::size_t count = 0;
+  for (const Eigen::Vector3d& p : points) {
+    const Terms terms = termsAt(p);
+    if (!(std::abs(p[0] - surface.dot(terms)) <= window))
+      continue;
+    normal_matrix.noalias() += terms * terms.transpose();
+    right += p[0] * terms;
+    ++count;
+  }
+  if (count >= kFewestPoints)
+    surface = normal_matrix.ldlt().solve(right);
+  return count;
+}
+
+} // namespace
+
+SurfacePatch
+fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise)
+{
+  SurfacePatch patch;
+  const PrincipalFrame frame = principalFrame(points);
+  if (frame.axes.isZero(0.0) || !(radius > 0.0))
+    return patch;
+  patch.narrow = frame.narrow;
+  patch.deviation = std::numeric_limits<double>::infinity();
+  const double trim = kPatchTrim * noise / radius;
+  const double lateral_sq = std::isfinite(noise) ? 1.0 - trim * trim : std::numeric_limits<double>::infinity();
+  std::vector<Eigen::Vector3d> inside; // in units of the radius: heights, then the place in the plane
+  inside.reserve(points.size());
+  for (const Offset& point : points) {
+    const Eigen::Vector3d p = frame.axes.transpose() * vector(point) / radius;
+    if (p[1] * p[1] + p[2] * p[2] <= lateral_sq)
+      inside.push_back(p);
+  }
+  Terms surface = Terms::Zero();
+  surface[0] = frame.axes.col(0).dot(frame.mean) / radius;
+  for (int round = 0; round < kRounds; ++round)
+    if (fitHeights(inside, round == 0 ? kFirstWindow * trim : trim, surface) < kFewestPoints)
+      return patch;
+  double sum_sq = 0.0;
+  for (const Eigen::Vector3d& p : inside) {
+    const double height = p[0] - surface.dot(termsAt(p));
+    if (!(std::abs(height) <= trim))
+      continue;
+    sum_sq += height * height;
+    ++patch.count;
+  }
+  if (patch.count < kFewestPoints)
+    return patch;
+  const double tilt = 1.0 / std::sqrt(1.0 + surface[1] * surface[1] + surface[2] * surface[2]);
+  patch.deviation = radius * tilt * std::sqrt(sum_sq / static_cast<double>(patch.count - kTerms));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    patch.foot[axis] = frame.axes(static_cast<Eigen::Index>(axis), 0) * surface[0] * radius;
+  return patch;
+}
+
+} // namespace pcl_gpf

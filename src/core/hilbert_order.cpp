@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/cluster_tree.h>
+#include <pcl_gpf/core/dense_box.h>
+#include <pcl_gpf/core/parallel.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr unsigned kBitsPerAxis = 21; // three axes fill a 63-bit key
+constexpr std::size_t kPointsPerTask = 16384;
+
+/** Index along the Hilbert curve of a cell (Skilling, "Programming the Hilbert curve", 2004). */
+std::uint64_t
+hilbertKey(std::array<std::uint32_t, 3> cell)
+{
+  for (std::uint32_t bit = 1u << (kBitsPerAxis - 1); bit > 1; bit >>= 1) {
+    const std::uint32_t below = bit - 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Branch-free: invert the low bits of x when this axis' bit is set, else exchange them with this axis'.
+      const std::uint32_t set = 0u - static_cast<std::uint32_t>((cell[axis] & bit) != 0);
+      const std::uint32_t exchanged = (cell[0] ^ cell[axis]) & below & ~set;
+      cell[0] ^= (below & set) | exchanged;
+      cell[axis] ^= exchanged;
+    }
+  }
+  cell[1] ^= cell[0];
+  cell[2] ^= cell[1];
+  std::uint32_t flip = 0;
+  for (std::uint32_t bit = 1u << (kBitsPerAxis - 1); bit > 1; bit >>= 1)
+    flip ^= (bit - 1) & (0u - static_cast<std::uint32_t>((cell[2] & bit) != 0));
+  std::uint64_t key = 0;
+  const auto spread = [](std::uint64_t v) { // two zero bits between neighbouring bits
+    v = (v | v << 32) & 0x1f00000000ffffull;
+    v = (v | v << 16) & 0x1f0000ff0000ffull;
+    v = (v | v << 8) & 0x100f00f00f00f00full;
+    v = (v | v << 4) & 0x10c30c30c30c30c3ull;
+    return (v | v << 2) & 0x1249249249249249ull;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    key |= spread(cell[axis] ^ flip) << (2 - axis);
+  return key;
+}
+
+constexpr unsigned kDigitBits = 11;
+constexpr std::size_t kBuckets = std::size_t{1} << kDigitBits;
+using Histogram = std::array<std::uint32_t, kBuckets>;
+
+std::size_t
+digitOf(std::uint64_t key, unsigned shift)
+{
+  return (key >> shift) & (kBuckets - 1);
+}
+
+/** Turns the counts of each block into the place of its first element of each bucket. \return false when one bucket holds all */
+bool
+placesFromCounts(std::vector<Histogram>& blocks, std::size_t size)
+{
+  std::uint32_t sum = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+    const std::uint32_t before = sum;
+    for (Histogram& block : blocks)
+      sum += std::exchange(block[bucket], sum);
+    if (sum - before == size)
+      return false;
+  }
+  return true;
+}
+
+/** Stable least-significant-digit radix sort of values by 63-bit keys; digits that all keys share are skipped. Every fixed block
+ * counts and moves its own elements, so that blocks run in parallel and the result is that of one. */
+void
+radixSort(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& values, std::size_t threads)
+{
+  constexpr std::size_t kBlock = 65536;
+  std::vector<std::uint64_t> other_keys(keys.size());
+  std::vector<std::uint32_t> other_values(values.size());
+  std::vector<Histogram> places((keys.size() + kBlock - 1) / kBlock);
+  for (unsigned shift = 0; shift < 63; shift += kDigitBits) {
+    parallelBlocks(keys.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+      Histogram& counts = places[begin / kBlock];
+      counts.fill(0);
+      for (std::size_t i = begin; i < end; ++i)
+        ++counts[digitOf(keys[i], shift)];
+    });
+    if (!placesFromCounts(places, keys.size()))
+      continue;
+    parallelBlocks(keys.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+      Histogram& next = places[begin / kBlock];
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t target = next[digitOf(keys[i], shift)]++;
+        other_keys[target] = keys[i];
+        other_values[target] = values[i];
+      }
+    });
+    keys.swap(other_keys);
+    values.swap(other_values);
+  }
+}
+
+/** The box that the curve fills; points outside it share its border cells. */
+BoundingBox
+curveBox(PointsView points)
+{
+  BoundingBox box;
+  for (std::size_t i = 0; i < points.size; ++i)
+    box.add(points.x[i], points.y[i], points.z[i]);
+  const float* axes[3] = {points.x, points.y, points.z};
+  return denseBox(box, points.size, [&](std::size_t i, std::size_t axis) { return static_cast<double>(axes[axis][i]); });
+}
+
+} // namespace
+
+std::vector<std::uint32_t>
+hilbertOrder(PointsView points, std::size_t threads)
+{
+  std::vector<std::uint32_t> order(points.size);
+  if (points.size == 0)
+    return order;
+  const BoundingBox box = curveBox(points);
+  const double extent = std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
+  constexpr double kLastCell = (1u << kBitsPerAxis) - 1;
+  const double to_cell = extent > 0.0 ? kLastCell / extent : 0.0;
+
+  std::vector<std::uint64_t> keys(points.size);
+  parallelBlocks(points.size, kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    const auto cell = [&](float p, std::size_t axis) {
+      return static_cast<std::uint32_t>(std::clamp((p - box.min[axis]) * to_cell, 0.0, kLastCell));
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      keys[i] = hilbertKey({cell(points.x[i], 0), cell(points.y[i], 1), cell(points.z[i], 2)});
+      order[i] = static_cast<std::uint32_t>(i);
+    }
+  });
+  radixSort(keys, order, threads);
+  return order;
+}
+
+} // namespace pcl_gpf

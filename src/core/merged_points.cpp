@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "merged_points.h"
+
+#include <pcl_gpf/core/parallel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pcl_gpf {
+
+namespace {
+
+/** Points that share one choice of group, after the balls about its first, middle and last point; a power of two. */
+constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kPointsPerTask = 8 * kChunk;
+constexpr std::size_t kLargestGroup = 256;
+/** Means as a share of the points above which merging is not worth its memory. */
+constexpr double kWorthwhile = 0.75;
+
+/** Sums over the points of one mean. */
+struct Mean {
+  std::array<double, 3> position{}, normal{};
+  std::array<float, 3> direction{}; ///< normal of the first point
+  std::size_t first = 0;
+  float count = 0.0f;
+};
+
+/** Means of consecutive points, found by one task. */
+class Merger {
+public:
+  Merger(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above)
+  : points_(points), p_(points.sorted()), n_(normals), radius_(radius), merge_above_(merge_above)
+  {}
+
+  /** Merges [begin, end), a chunk that begins at a multiple of kChunk. */
+  void
+  addChunk(std::size_t begin, std::size_t end)
+  {
+    std::size_t held = merge_above_ * kLargestGroup;
+    for (const std::size_t i : {begin, begin + (end - begin) / 2, end - 1})
+      if (held > merge_above_)
+        held = std::min(held, countBall(i));
+    std::size_t group = 1;
+    for (; held > merge_above_ && group < kLargestGroup; held = (held + 1) / 2)
+      group *= 2;
+    for (std::size_t first = begin; first < end; first += group)
+      addGroup(first, std::min(end, first + group));
+  }
+
+  /** What is left of a mean. */
+  struct Datum {
+    std::array<float, 3> position, normal;
+    float weight;
+  };
+  std::vector<Datum> data;
+  std::vector<std::uint32_t> mean_of; ///< relative to this task's first datum
+
+private:
+  double radiusSq(std::size_t i) const { return radius_.per_point_sq ? radius_.per_point_sq[i] : radius_.radius * radius_.radius; }
+
+  /** Points within the radius of point i, or some number that asks for the largest groups. */
+  std::size_t
+  countBall(std::size_t i)
+  {
+    const std::array<float, 3> centre = {p_.x[i], p_.y[i], p_.z[i]};
+    const auto radius_sq = static_cast<float>(radiusSq(i));
+    runs_.clear();
+    points_.tree().collectRuns({centre, centre}, std::sqrt(radius_sq), runs_);
+    std::size_t held = 0;
+    for (std::size_t r = 0; r < runs_.size() && held <= merge_above_ * kLargestGroup; ++r) {
+      const Run& run = runs_[r];
+      for (std::size_t j = run.begin; j < run.end; ++j) {
+        const float dx = p_.x[j] - centre[0], dy = p_.y[j] - centre[1], dz = p_.z[j] - centre[2];
+        held += dx * dx + dy * dy + dz * dz < radius_sq;
+      }
+    }
+    return held;
+  }
+
+  /** Halves a group until it is small against the radius. */
+  void
+  addGroup(std::size_t begin, std::size_t end)
+  {
+    if (end - begin > 1 && isWide(begin, end)) {
+      const std::size_t middle = begin + (end - begin) / 2;
+      addGroup(begin, middle);
+      addGroup(middle, end);
+      return;
+    }
+    means_.clear();
+    for (std::size_t i = begin; i < end; ++i)
+      addPoint(i);
+    for (const Mean& mean : means_)
+      data.push_back(datumOf(mean));
+  }
+
+  bool
+  isWide(std::size_t begin, std::size_t end) const
+  {
+    const float* axes[3] = {p_.x, p_.y, p_.z};
+    double diagonal_sq = 0.0;
+    for (const float* axis : axes) {
+      const auto range = std::minmax_element(axis + begin, axis + end);
+      const double extent = static_cast<double>(*range.second) - static_cast<double>(*range.first);
+      diagonal_sq += extent * extent;
+    }
+    double radius_sq = radiusSq(begin);
+    for (std::size_t i = begin + 1; radius_.per_point_sq && i < end; ++i)
+      radius_sq = std::min(radius_sq, radiusSq(i));
+    return diagonal_sq > MergedPoints::kWidestShare * MergedPoints::kWidestShare * radius_sq;
+  }
+
+  /** To the first mean of the group that faces the same way, or a new one. */
+  void
+  addPoint(std::size_t i)
+  {
+    const std::array<float, 3> normal = n_.x ? std::array<float, 3>{n_.x[i], n_.y[i], n_.z[i]} : std::array<float, 3>{};
+    std::size_t m = 0;
+    float cosine = 1.0f;
+    for (; m < means_.size(); ++m) {
+      const std::array<float, 3>& direction = means_[m].direction;
+      cosine = n_.x ? normal[0] * direction[0] + normal[1] * direction[1] + normal[2] * direction[2] : 1.0f;
+      if (std::abs(cosine) >= MergedPoints::kSameDirection)
+        break;
+    }
+    if (m == means_.size()) {
+      means_.emplace_back();
+      means_[m].direction = normal;
+      means_[m].first = i;
+      cosine = 1.0f;
+    }
+    Mean& mean = means_[m];
+    const double position[3] = {p_.x[i], p_.y[i], p_.z[i]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      mean.position[axis] += position[axis];
+      mean.normal[axis] += std::copysign(1.0, cosine) * static_cast<double>(normal[axis]);
+    }
+    mean.count += 1.0f;
+    mean_of.push_back(static_cast<std::uint32_t>(data.size() + m));
+  }
+
+  /** A mean of one point is that point to the last bit. */
+  Datum
+  datumOf(const Mean& mean) const
+  {
+    const bool alone = mean.count == 1.0f;
+    const float* axes[3] = {p_.x, p_.y, p_.z};
+    const auto& n = mean.normal;
+    const double length = alone || !n_.x ? 1.0 : std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    Datum datum;
+    datum.weight = mean.count;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      datum.position[axis] = alone ? axes[axis][mean.first] : static_cast<float>(mean.position[axis] / static_cast<double>(mean.count));
+      datum.normal[axis] = static_cast<float>(n[axis] / length);
+    }
+    return datum;
+  }
+
+  const PointIndex& points_;
+  PointsView p_;
+  VectorsView n_;
+  BallRadius radius_;
+  std::size_t merge_above_;
+  std::vector<Run> runs_;
+  std::vector<Mean> means_; ///< of the group at hand
+};
+
+void
+write(const Merger::Datum& datum, std::size_t to, MergedPoints& merged)
+{
+  merged.weights[to] = datum.weight;
+  merged.positions.x[to] = datum.position[0];
+  merged.positions.y[to] = datum.position[1];
+  merged.positions.z[to] = datum.position[2];
+  if (merged.normals.size() == 0)
+    return;
+  merged.normals.x[to] = datum.normal[0];
+  merged.normals.y[to] = datum.normal[1];
+  merged.normals.z[to] = datum.normal[2];
+}
+
+} // namespace
+
+MergedPoints
+mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above, bool want_mean_of,
+            std::size_t threads)
+{
+  MergedPoints merged;
+  if (merge_above == 0 || points.size() <= merge_above)
+    return merged;
+  const std::size_t tasks = (points.size() + kPointsPerTask - 1) / kPointsPerTask;
+  std::vector<Merger> mergers(tasks, Merger(points, normals, radius, merge_above));
+  parallelBlocks(points.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += kChunk)
+      mergers[begin / kPointsPerTask].addChunk(first, std::min(end, first + kChunk));
+  });
+  std::vector<std::size_t> offsets(tasks + 1, 0);
+  for (std::size_t task = 0; task < tasks; ++task)
+    offsets[task + 1] = offsets[task] + mergers[task].data.size();
+  if (static_cast<double>(offsets.back()) > kWorthwhile * static_cast<double>(points.size()))
+    return merged;
+  merged.positions = SortedVectors<float>(offsets.back(), kFarAway);
+  if (normals.x)
+    merged.normals = SortedVectors<float>(offsets.back());
+  merged.weights = AlignedArray<float>(offsets.back() + kQueryBlock);
+  merged.mean_of.resize(want_mean_of ? points.size() : 0);
+  parallelBlocks(tasks, 1, threads, [&](std::size_t task, std::size_t) {
+    Merger& merger = mergers[task];
+    for (std::size_t m = 0; m < merger.data.size(); ++m)
+      write(merger.data[m], offsets[task] + m, merged);
+    for (std::size_t k = 0; want_mean_of && k < merger.mean_of.size(); ++k)
+      merged.mean_of[task * kPointsPerTask + k] = static_cast<std::uint32_t>(offsets[task] + merger.mean_of[k]);
+    std::vector<Merger::Datum>().swap(merger.data);
+    std::vector<std::uint32_t>().swap(merger.mean_of);
+  });
+  merged.tree.fit(merged.view(), threads);
+  return merged;
+}
+
+} // namespace pcl_gpf
