@@ -13,7 +13,7 @@ namespace pcl_gpf {
 
 namespace {
 
-/** A length as multiples of the noise and, at least, of the spacing. */
+/** A length as multiples of the noise and of the spacing, which add up like independent errors. */
 struct LengthRule {
   double noises, spacings;
 };
@@ -26,20 +26,17 @@ ScaleRules
 rulesOf(FilterScale filter_scale)
 {
   switch (filter_scale) {
-  case FilterScale::Coarse: return {{4.8, 3.0}, {9.6, 6.0}, {13.2, 8.0}};
-  case FilterScale::Fine: return {{2.4, 3.0}, {4.4, 4.5}, {5.5, 6.0}};
+  case FilterScale::Coarse: return {{4.3, 3.1}, {8.8, 6.3}, {11.8, 8.0}};
+  case FilterScale::Fine: return {{1.8, 2.8}, {2.8, 3.2}, {4.3, 6.0}};
   default: return {{4.0, 3.0}, {8.0, 6.0}, {11.0, 8.0}};
   }
 }
 
-/** The larger of the two lengths of a rule, and which it was. */
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
 {
-  const double by_noise = rule.noises * scale.noise, by_spacing = rule.spacings * scale.spacing;
-  if (by_noise > by_spacing)
-    return {name, by_noise, "estimated", toText(rule.noises) + " x noise"};
-  return {name, by_spacing, "estimated", toText(rule.spacings) + " x spacing"};
+  return {name, std::hypot(rule.noises * scale.noise, rule.spacings * scale.spacing), "estimated",
+          toText(rule.noises) + " x noise (+) " + toText(rule.spacings) + " x spacing"};
 }
 
 void

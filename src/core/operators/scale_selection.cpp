@@ -17,13 +17,20 @@ constexpr double kPi = 3.14159265358979323846;
 /** Radius of a patch: wide enough to average the noise, narrow enough to lie on a boss. */
 constexpr double kPatchNoises = 1.5, kPatchSpacings = 2.5;
 /** Neighbourhood over which patches are heard, in patch radii. */
-constexpr double kHearing = 3.0;
+constexpr double kHearing = 4.0;
 /** Most probes that a neighbourhood is to hold; more would only cost time. */
 constexpr double kMostProbes = 256.0;
 /** Normals that deviate by this angle belong to other faces. */
 constexpr double kFaceAngle = 30.0 * kPi / 180.0;
 /** Least agreement of normals in a patch on one face. */
 constexpr float kOneFace = 0.97f;
+/** Heights beyond this many noises are outliers and count as this. */
+constexpr double kOutlier = 4.0;
+/** Mean square of heights, in squares of the noise, which noise alone does not reach. */
+constexpr double kMerged = 3.0;
+/** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p of a noisy estimate; between them by
+ * measurement. */
+constexpr double kVariances = 1.5;
 /** Standard deviation of a filtered point in units of noise / sqrt(data in the ball). */
 constexpr double kSpread = 1.15;
 
@@ -79,11 +86,16 @@ residualHeights(PointsView input, PointsView positions, NormalsView normals)
   return heights;
 }
 
-/** Means of heights over the patches about the probes. */
+/** Means of heights, and of their squares, over the patches about the probes. */
 void
-averageHeights(PointsView input, PointsView positions, NormalsView normals, double radius, Probes& probes, std::size_t threads)
+averageHeights(PointsView input, PointsView positions, NormalsView normals, double noise, double radius, Probes& probes,
+               std::size_t threads)
 {
   const AlignedArray<float> heights = residualHeights(input, positions, normals);
+  AlignedArray<float> squares(input.size + kQueryBlock);
+  const auto longest_sq = static_cast<float>(kOutlier * kOutlier * noise * noise);
+  for (std::size_t i = 0; i < input.size; ++i)
+    squares[i] = std::min(heights[i] * heights[i], longest_sq);
   const SortedVectors<float> surface = gather<float>(positions, {}, {}, kFarAway, threads);
   const SortedVectors<float> directions = gather<float>(normals, {}, {}, 0.0f, threads);
   ClusterTree tree;
@@ -92,7 +104,8 @@ averageHeights(PointsView input, PointsView positions, NormalsView normals, doub
   a.data = surface.vectors();
   a.data_normals = directions.vectors();
   a.normal_falloff = static_cast<float>(1.0 / (1.0 - std::cos(kFaceAngle)));
-  a.first_field = a.second_field = heights.data();
+  a.first_field = heights.data();
+  a.second_field = squares.data();
   sumFields(a, tree, radius, probes, threads);
 }
 
@@ -105,7 +118,10 @@ squaredBias(double noise_sq, double radius, Probes& probes, std::size_t threads)
     const double weight = std::max(1.0f, probes.weight[k]);
     const double mean = probes.first[k] / weight;
     counts[k] = probes.weight[k] > kOneFace * probes.count[k] ? 1.0f : 0.0f;
-    bias_sq[k] = counts[k] * static_cast<float>(mean * mean - noise_sq / weight);
+    const double spread_sq = probes.second[k] / weight;
+    // Two sheets drawn together have no mean height, but far more spread than noise.
+    const double merged_sq = spread_sq > kMerged * noise_sq ? spread_sq - noise_sq : 0.0;
+    bias_sq[k] = counts[k] * static_cast<float>(mean * mean - noise_sq / weight + merged_sq);
   }
   ClusterTree tree;
   tree.fit(probes.view(), threads);
@@ -141,14 +157,14 @@ selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, Poi
     stride *= 2;
 
   Probes probes(coarse_positions, coarse_normals, stride);
-  averageHeights(points.sorted(), coarse_positions, coarse_normals, patch, probes, threads);
+  averageHeights(points.sorted(), coarse_positions, coarse_normals, p.noise, patch, probes, threads);
   const std::vector<float> in_patch(probes.weight.data(), probes.weight.data() + probes.size);
   const std::vector<double> bias_sq = squaredBias(p.noise * p.noise, hearing, probes, threads);
   const double variance = kSpread * kSpread * p.noise * p.noise * patch * patch; // divided by the data in a ball of radius 1
   for (std::size_t k = 0; k < probes.size; ++k) {
     const double data = std::max(1.0f, in_patch[k]);
-    const double coarse_risk = bias_sq[k] + 2.0 * variance / (data * p.coarse_radius * p.coarse_radius);
-    const double fine_risk = 2.0 * variance / (data * p.fine_radius * p.fine_radius);
+    const double coarse_risk = bias_sq[k] + kVariances * variance / (data * p.coarse_radius * p.coarse_radius);
+    const double fine_risk = kVariances * variance / (data * p.fine_radius * p.fine_radius);
     const std::size_t end = std::min(points.size(), (k + 1) * stride);
     for (std::size_t i = k * stride; i < end; ++i)
       fine[i] = coarse_risk > fine_risk;
