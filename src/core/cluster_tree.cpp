@@ -23,14 +23,15 @@ emptyBox()
 }
 
 FloatBox
-boxOf(PointsView points, std::size_t begin, std::size_t end)
+boxOf(PointsView points, std::size_t begin, std::size_t end, const float* radii = nullptr)
 {
   FloatBox box = emptyBox();
   const float* axes[3] = {points.x, points.y, points.z};
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t i = begin; i < end; ++i) {
-      box.min[axis] = std::min(box.min[axis], axes[axis][i]);
-      box.max[axis] = std::max(box.max[axis], axes[axis][i]);
+      const float radius = radii ? radii[i] : 0.0f;
+      box.min[axis] = std::min(box.min[axis], axes[axis][i] - radius);
+      box.max[axis] = std::max(box.max[axis], axes[axis][i] + radius);
     }
   return box;
 }
@@ -114,7 +115,7 @@ findNear(const std::vector<BoxPack>& packs, const std::vector<std::uint32_t>& no
 } // namespace
 
 void
-ClusterTree::fit(PointsView sorted, std::size_t threads)
+ClusterTree::fit(PointsView sorted, std::size_t threads, const float* radii)
 {
   size_ = sorted.size;
   const auto packsFor = [](std::size_t children) { return (children + kFanout - 1) / kFanout; };
@@ -137,7 +138,7 @@ ClusterTree::fit(PointsView sorted, std::size_t threads)
           const std::size_t child = p * kFanout + c;
           FloatBox box = emptyBox();
           if (level == 0)
-            box = boxOf(sorted, std::min(size_, child * kClusterSize), std::min(size_, (child + 1) * kClusterSize));
+            box = boxOf(sorted, std::min(size_, child * kClusterSize), std::min(size_, (child + 1) * kClusterSize), radii);
           else if (child < levels_[level - 1].size())
             for (std::size_t axis = 0; axis < 3; ++axis) {
               const BoxPack& below = levels_[level - 1][child];

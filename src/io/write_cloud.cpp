@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_gpf/io/write_cloud.h"
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstring>
 #include <limits>
 #include <set>
@@ -12,6 +9,7 @@
 #include "io/format_limits.h"
 #include "io/format_writers.h"
 #include "io/input_bytes.h"
+#include "io/output_bytes.h"
 #include "io/ply_header.h"
 #include "io/text_lines.h"
 #include "pcl_gpf/io/errors.h"
@@ -76,16 +74,6 @@ void checkWideIntegers(const CloudFile& cloud, const std::string& path) {
   }
 }
 
-void writeAll(int file, const char* bytes, std::size_t size, const std::string& path) {
-  while (size > 0) {
-    const ssize_t count = ::write(file, bytes, size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) refuse(path, "to write it", std::strerror(errno));
-    bytes += count;
-    size -= static_cast<std::size_t>(count);
-  }
-}
-
 void writeAs(const CloudFile& cloud, CloudFormat format, const ByteSink& sink) {
   if (isPcd(format))
     writePcd(cloud, format, sink);
@@ -135,9 +123,7 @@ void writeCloud(const CloudFile& cloud, const std::string& path, const WriteOpti
   const CloudFormat format = options.format ? *options.format : formatForPath(path, cloud);
   checkFits(cloud, format, path);
   if (path == "-") {
-    writeAs(cloud, format, [](const void* bytes, std::size_t size) {
-      writeAll(STDOUT_FILENO, static_cast<const char*>(bytes), size, "standard output");
-    });
+    writeAs(cloud, format, standardOutputSink());
     return;
   }
   checkWritable(path, options.overwrite);

@@ -227,6 +227,30 @@ TEST(ClusterTree, refitsToFewerAndToMorePoints)
   }
 }
 
+TEST(ClusterTree, findsEveryBallThatMeetsABox)
+{
+  const SoaBuffer cloud = sortedCloud(kLayouts[0], 1000);
+  std::vector<float> radii(cloud.size());
+  SplitMix64 random(5);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    radii[i] = static_cast<float>(i == 300 ? 0.6 : 0.1 * random.uniform());
+  ClusterTree tree;
+  tree.fit(cloud.view(), 1, radii.data());
+  std::size_t found = 0;
+  for (std::size_t q = 0; q < cloud.size(); q += 20) {
+    const FloatBox box{{cloud.x[q], cloud.y[q], cloud.z[q]}, {cloud.x[q] + 0.05f, cloud.y[q], cloud.z[q] + 0.02f}};
+    std::vector<pcl_gpf::Run> runs;
+    tree.collectRuns(box, 1e-6f, runs);
+    std::vector<char> covered(cloud.size(), 0);
+    for (const pcl_gpf::Run& run : runs)
+      std::fill(covered.begin() + run.begin, covered.begin() + run.end, 1);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      EXPECT_TRUE(covered[i] || gapSquared(box, cloud, i) > static_cast<double>(radii[i]) * radii[i]) << "ball " << i;
+    found += static_cast<std::size_t>(std::count(covered.begin(), covered.end(), 1));
+  }
+  EXPECT_LT(found, 50 * cloud.size() / 2) << "one large ball must not make all of them large";
+}
+
 TEST(ClusterTree, boundsAreThoseOfThePoints)
 {
   const SoaBuffer cloud = sortedCloud(kLayouts[0], 777);

@@ -9,6 +9,7 @@
 #include <pcl_gpf/filters/bilateral_normal_filter.h>
 #include <pcl_gpf/filters/gpf.h>
 #include <pcl_gpf/filters/normal_orientation.h>
+#include <pcl_gpf/filters/rimls_projection.h>
 
 #include <gtest/gtest.h>
 
@@ -39,6 +40,15 @@ struct ContractOf<BilateralNormalFilter<PointT>> {
 };
 
 template <typename PointT>
+struct ContractOf<RIMLSProjection<PointT>> {
+  using Point = PointT;
+  static constexpr const char* kName = "RIMLSProjection";
+  static constexpr bool kKeepsNonFinite = false;
+  static void prepare(RIMLSProjection<PointT>& filter) { filter.setSupportRadius(0.3); }
+  static void setInvalidParameter(RIMLSProjection<PointT>& filter) { filter.setSupportRadius(-1); }
+};
+
+template <typename PointT>
 struct ContractOf<NormalOrientation<PointT>> {
   using Point = PointT;
   static constexpr const char* kName = "NormalOrientation";
@@ -49,8 +59,8 @@ struct ContractOf<NormalOrientation<PointT>> {
 
 #ifdef PCL_GPF_TEST_CUSTOM_POINT
 /** \brief Every filter with a point type of the user's own; the place to add a new filter. */
-using ContractFilters =
-    ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>, NormalOrientation<ScannerPoint>>;
+using ContractFilters = ::testing::Types<GPF<ScannerPoint>, BilateralNormalFilter<ScannerPoint>, NormalOrientation<ScannerPoint>,
+                                         RIMLSProjection<ScannerPoint>>;
 #else
 /** \brief Every filter with every compiled point type; the place to add a new filter. */
 using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
@@ -61,7 +71,10 @@ using ContractFilters = ::testing::Types<GPF<pcl::PointNormal>,
                                          BilateralNormalFilter<pcl::PointXYZINormal>,
                                          NormalOrientation<pcl::PointNormal>,
                                          NormalOrientation<pcl::PointXYZRGBNormal>,
-                                         NormalOrientation<pcl::PointXYZINormal>>;
+                                         NormalOrientation<pcl::PointXYZINormal>,
+                                         RIMLSProjection<pcl::PointNormal>,
+                                         RIMLSProjection<pcl::PointXYZRGBNormal>,
+                                         RIMLSProjection<pcl::PointXYZINormal>>;
 #endif
 
 /** \brief A filter made ready for clouds of the size of the unit cube, and clouds for it. */

@@ -20,6 +20,7 @@ pcl_gpf_add_test(test_tool_rasteriser
     ${render_folder}/camera.cpp
     ${render_folder}/color_map.cpp
     ${render_folder}/draw_splats.cpp
+    ${render_folder}/draw_triangles.cpp
     ${render_folder}/image.cpp
     ${render_folder}/shade_splats.cpp
     ${render_folder}/text.cpp

@@ -8,7 +8,7 @@ const std::vector<Command>&
 allCommands()
 {
   static const std::vector<Command> commands = [] {
-    std::vector<Command> list{infoCommand(),    filterCommand(),  normalsCommand(), orientCommand(), upsampleCommand(),
+    std::vector<Command> list{infoCommand(),    filterCommand(),  normalsCommand(), orientCommand(), upsampleCommand(), meshCommand(),
                               convertCommand(), compareCommand(), noiseCommand(),   renderCommand()};
     for (Command& command : list)
       command.options = command.options + std::vector<OptionSpec>{quietOption(), helpOption()};

@@ -17,6 +17,8 @@ orientCommand();
 Command
 upsampleCommand();
 Command
+meshCommand();
+Command
 convertCommand();
 Command
 noiseCommand();

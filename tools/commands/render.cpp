@@ -168,7 +168,10 @@ drawPanel(const Options& options,
   splats.radius = splatRadius(options, cloud, clouds, camera);
   splats.lit = options.text("color") != "rgb";
   const std::size_t threads = resolveThreads(threadCount(options));
-  return halved(shadeSplats(splats, drawSplats(splats, camera, threads), camera, kPaper, threads));
+  const VisibleSplats visible = cloud.triangles.empty() || isSection(options)
+                                    ? drawSplats(splats, camera, threads)
+                                    : drawTriangles(cloud.points, cloud.triangles, camera, threads);
+  return halved(shadeSplats(splats, visible, camera, kPaper, threads));
 }
 
 std::vector<std::string>
@@ -237,7 +240,7 @@ renderCommand()
 {
   Command command;
   command.name = "render";
-  command.summary = "Draws clouds side by side into a PNG picture, all in the same frame; needs no display";
+  command.summary = "Draws clouds and meshes side by side into a PNG picture, all in the same frame; needs no display";
   command.synopsis = "A [B ...] -o PICTURE.png [options]";
   command.examples = {{{"pcl_gpf_tool render scan.pcd clean.pcd -o picture.png", "before and after"},
                        {"pcl_gpf_tool render scan.pcd clean.pcd -o edge.png --section z --zoom 4 --center 0,0,0.5",

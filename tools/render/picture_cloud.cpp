@@ -8,6 +8,8 @@
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
 #include <pcl_gpf/core/soa_buffer.h>
+#include <pcl_gpf/io/errors.h>
+#include <pcl_gpf/io/mesh_file.h>
 
 #include <algorithm>
 #include <utility>
@@ -30,6 +32,50 @@ localPoints(const PictureCloud& cloud, const LocalFrame& frame)
 
 } // namespace
 
+namespace {
+
+/** Faces of a PLY file, as places among the points shown; empty when it has none. */
+std::vector<std::uint32_t>
+readTriangles(const PictureCloud& cloud)
+{
+  const CloudFormat format = cloud.file.format;
+  if (format != CloudFormat::PlyAscii && format != CloudFormat::PlyLittleEndian && format != CloudFormat::PlyBigEndian)
+    return {};
+  TriangleMesh mesh;
+  try {
+    mesh = readMesh(cloud.path);
+  }
+  catch (const IoError&) { // no faces, or none that can be used: the points are shown
+    return {};
+  }
+  constexpr std::uint32_t kNotShown = 0xffffffffu;
+  std::vector<std::uint32_t> place(cloud.file.size(), kNotShown), triangles;
+  for (std::size_t i = 0; i < cloud.rows.size(); ++i)
+    place[cloud.rows[i]] = static_cast<std::uint32_t>(i);
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const std::uint32_t* v = mesh.triangles.data() + t;
+    if (place[v[0]] != kNotShown && place[v[1]] != kNotShown && place[v[2]] != kNotShown)
+      triangles.insert(triangles.end(), {place[v[0]], place[v[1]], place[v[2]]});
+  }
+  return triangles;
+}
+
+/** Drops the triangles of points that are not kept. */
+void
+keepTriangles(const std::vector<bool>& kept, std::vector<std::uint32_t>& triangles)
+{
+  std::vector<std::uint32_t> place(kept.size()), rest;
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    place[i] = kept[i] ? next++ : next;
+  for (std::size_t t = 0; t < triangles.size(); t += 3)
+    if (kept[triangles[t]] && kept[triangles[t + 1]] && kept[triangles[t + 2]])
+      rest.insert(rest.end(), {place[triangles[t]], place[triangles[t + 1]], place[triangles[t + 2]]});
+  triangles = std::move(rest);
+}
+
+} // namespace
+
 PictureCloud
 readPictureCloud(const std::string& path, unsigned threads, Console& console)
 {
@@ -46,6 +92,7 @@ readPictureCloud(const std::string& path, unsigned threads, Console& console)
       cloud.points.push_back({c.x[row], c.y[row], c.z[row]});
     }
   cloud.file = std::move(loaded.file);
+  cloud.triangles = readTriangles(cloud);
   const LocalFrame frame = localFrame(cloud.box);
   cloud.index = std::make_shared<const PointIndex>(localPoints(cloud, frame).view(), threads);
   cloud.spacing = frame.lengthToWorld(estimateSpacing(*cloud.index, threads));
@@ -90,8 +137,10 @@ keepOnly(PictureCloud& cloud, const std::function<bool(const Position& point)>& 
 {
   cloud.index.reset();
   std::size_t kept = 0;
+  std::vector<bool> is_kept(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!keep(cloud.points[i]))
+    is_kept[i] = keep(cloud.points[i]);
+    if (!is_kept[i])
       continue;
     cloud.points[kept] = cloud.points[i];
     cloud.rows[kept] = cloud.rows[i];
@@ -103,6 +152,7 @@ keepOnly(PictureCloud& cloud, const std::function<bool(const Position& point)>& 
   cloud.rows.resize(kept);
   if (!cloud.normals.empty())
     cloud.normals.resize(kept);
+  keepTriangles(is_kept, cloud.triangles);
 }
 
 } // namespace pcl_gpf

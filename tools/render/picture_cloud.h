@@ -26,10 +26,11 @@ struct PictureCloud {
   std::vector<std::uint32_t> rows;  ///< rows of the file that are shown, finite
   std::vector<Position> points;     ///< their positions
   std::vector<Position> normals;    ///< unit or zero, one per point; empty until set
+  std::vector<std::uint32_t> triangles; ///< of a mesh, three places in `points` each; empty for a cloud
   std::shared_ptr<const PointIndex> index; ///< of the points in the frame of the box; gone after keepOnly()
 };
 
-/** \brief Reads a cloud; all its finite points are shown. \throws IoError (kind Unreadable), UnsuitableData if there is none */
+/** \brief Reads a cloud, or a mesh (a PLY file with faces); all its finite points are shown. \throws IoError (kind Unreadable), UnsuitableData if there is none */
 PictureCloud
 readPictureCloud(const std::string& path, unsigned threads, Console& console);
 

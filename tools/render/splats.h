@@ -36,6 +36,11 @@ struct VisibleSplats {
 VisibleSplats
 drawSplats(const SplatCloud& cloud, const Camera& camera, std::size_t threads);
 
+/** \brief Draws triangles over the points the same way; a pixel belongs to its nearest corner. The result does not depend on the threads.
+ * \param[in] triangles three point numbers each */
+VisibleSplats
+drawTriangles(const std::vector<Position>& points, const std::vector<std::uint32_t>& triangles, const Camera& camera, std::size_t threads);
+
 /** \brief Colours the pixels: light from over the viewer's left shoulder, and darkness behind edges in depth. */
 Image
 shadeSplats(const SplatCloud& cloud, const VisibleSplats& visible, const Camera& camera, Color background, std::size_t threads);

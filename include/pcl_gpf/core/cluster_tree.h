@@ -50,9 +50,10 @@ public:
   static constexpr std::size_t kFanout = BoxPack::kBoxes;
 
   /** \brief Computes all boxes from positions in sorted order. Positions may have been moved since they were sorted: results stay
-   * exact, only candidate lists grow. */
+   * exact, only candidate lists grow. With `radii` (one a point) the boxes enclose balls: collectRuns() with radius 0 then finds
+   * every ball that meets the box, and nearest() must not be used. */
   void
-  fit(PointsView sorted, std::size_t threads);
+  fit(PointsView sorted, std::size_t threads, const float* radii = nullptr);
 
   /** \brief Appends the runs of points whose cluster boxes come within `radius` of `box`, ascending, adjacent runs merged. */
   void

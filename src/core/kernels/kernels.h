@@ -28,11 +28,12 @@ struct MutableVectors {
   operator Vectors<Real>() const { return {x, y, z}; }
 };
 
-/** Radius of the open ball: one for all, or one a query. */
+/** Radius of the open ball: one for all, one a query, or one a datum. */
 template <typename Real>
 struct Radius {
   Real radius_sq = 0;
   const Real* per_query = nullptr;
+  const Real* inverse_sq_per_datum = nullptr; ///< 1 / radius^2; padded like the data; the fields above are not read then
 };
 
 /** out[q] = sum over data in reach of exp(-falloff r^2 / radius^2). Eq. 3's denominators, rho and w. */
@@ -92,6 +93,28 @@ struct BilateralNormals {
   MutableVectors<float> out;
 };
 
+/** Sums of one RIMLS fit over the data that reach the query: u = x - p, f_i = u.n, t = 1 - u^2 / h_i^2, w = t^4 v, where v is 1 in the
+ * plain fit and exp(-normal_falloff |n - gradient|^2 - residual_falloff (f_i - value)^2 / h_i^2) in a robust one. */
+struct ImplicitSums {
+  Vectors<float> queries, data, data_normals;
+  Radius<float> radius;         ///< per datum
+  bool robust = false;
+  const float* value = nullptr; ///< of the fit before, for robust fits; so is `gradient`
+  Vectors<float> gradient;
+  float normal_falloff = 0;
+  float residual_falloff = 0;
+  std::size_t first_output = 0; ///< query whose results go to the first place of the arrays below; `value`, `gradient` likewise
+  float* weight = nullptr;      ///< sum of w
+  float* height = nullptr;      ///< sum of w f_i
+  MutableVectors<float> normal; ///< sum of w n
+  MutableVectors<float> slope;  ///< sum of s u with s = t^3 v / h_i^2; grad w = -8 s u
+  MutableVectors<float> tilt;   ///< sum of s f_i u
+  float close = 0;              ///< plain fit only, and what follows: u^2 / h_i^2 below which a datum counts as close
+  float* count = nullptr;       ///< data that reach the query
+  float* close_count = nullptr; ///< those that are close
+  float* inverse_sq = nullptr;  ///< sum of w / h_i^2
+};
+
 /** Moments of the data in reach relative to the query: count, sum of d, sum of d d^T, each datum as often as its weight says. */
 struct Moments {
   Vectors<float> queries, data;
@@ -147,6 +170,7 @@ struct KernelSet {
   void (*repulsion_float)(const Candidates&, const Repulsion<float>&, std::size_t begin, std::size_t end);
   void (*repulsion_double)(const Candidates&, const Repulsion<double>&, std::size_t begin, std::size_t end);
   void (*bilateral_normals)(const Candidates&, const BilateralNormals&, std::size_t begin, std::size_t end);
+  void (*implicit_sums)(const Candidates&, const ImplicitSums&, std::size_t begin, std::size_t end);
   void (*moments)(const Candidates&, const Moments&, std::size_t begin, std::size_t end);
   void (*field_sums)(const Candidates&, const FieldSums&, std::size_t begin, std::size_t end);
   void (*near_children)(const NearChildren&);

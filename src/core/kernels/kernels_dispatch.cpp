@@ -16,6 +16,7 @@
 #include "bilateral_normals-inl.h"
 #include "field_sums-inl.h"
 #include "gaussian_sums-inl.h"
+#include "implicit_sums-inl.h"
 #include "near_children-inl.h"
 #include "projection-inl.h"
 #include "repulsion-inl.h"
@@ -106,6 +107,20 @@ bilateralNormals(const Candidates& candidates, const BilateralNormals& a, std::s
     streamPairs<NormalLoops<false, false>::Sum, float>(candidates, a, begin, end);
 }
 
+template <class D>
+using PlainImplicitSum = ImplicitSum<D, false>;
+template <class D>
+using RobustImplicitSum = ImplicitSum<D, true>;
+
+static void
+implicitSums(const Candidates& candidates, const ImplicitSums& a, std::size_t begin, std::size_t end)
+{
+  if (a.robust)
+    streamPairs<RobustImplicitSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<PlainImplicitSum, float>(candidates, a, begin, end);
+}
+
 static void
 moments(const Candidates& candidates, const Moments& a, std::size_t begin, std::size_t end)
 {
@@ -130,7 +145,8 @@ fieldSums(const Candidates& candidates, const FieldSums& a, std::size_t begin, s
 }
 
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
-                              repulsion<float>,    repulsion<double>,    bilateralNormals,  moments, fieldSums, nearChildren};
+                              repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
+                              moments,             fieldSums,            nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

@@ -80,7 +80,8 @@ public:
         max_[axis] = axes[axis][q] > max_[axis] ? axes[axis][q] : max_[axis];
       }
     }
-    Real radius_sq = radius.radius_sq;
+    inverse_sq_ = radius.inverse_sq_per_datum;
+    Real radius_sq = inverse_sq_ ? Real(1) : radius.radius_sq;
     if (radius.per_query)
       for (std::size_t q = first; q < end; ++q)
         radius_sq = q == first || radius.per_query[q] > radius_sq ? radius.per_query[q] : radius_sq;
@@ -94,7 +95,9 @@ public:
   {
     const hn::RebindToSigned<D> di;
     const auto gap_x = gap(d, position.x, 0), gap_y = gap(d, position.y, 1), gap_z = gap(d, position.z, 2);
-    const auto distance_sq = hn::Add(hn::Add(hn::Mul(gap_x, gap_x), hn::Mul(gap_y, gap_y)), hn::Mul(gap_z, gap_z));
+    auto distance_sq = hn::Add(hn::Add(hn::Mul(gap_x, gap_x), hn::Mul(gap_y, gap_y)), hn::Mul(gap_z, gap_z));
+    if (inverse_sq_) // in units of the datum's own radius
+      distance_sq = hn::Mul(distance_sq, hn::LoadU(d, inverse_sq_ + j));
     const auto near = hn::And(hn::RebindMask(di, hn::Lt(distance_sq, hn::Set(d, radius_sq_))), hn::FirstN(di, end - j));
     hn::StoreU(hn::Compress(hn::Iota(di, static_cast<Index>(j)), near), di, survivors);
     return hn::CountTrue(di, near);
@@ -109,6 +112,7 @@ private:
   }
 
   Real min_[3], max_[3], radius_sq_;
+  const Real* inverse_sq_;
 };
 
 /** Candidates of a vector of queries that survived their filters: indices in small arrays that stay in the first cache. */

@@ -22,7 +22,7 @@ struct Term {
 /** \brief One pair in double: d = datum - query. */
 struct Pair {
   std::array<double, 3> d, query_normal, normal;
-  double r_sq, radius_sq, weight, density;
+  double r_sq, radius_sq, weight, density, query_radius_sq;
 
   static double
   dot(const std::array<double, 3>& a, const std::array<double, 3>& b)
@@ -46,6 +46,7 @@ pairOf(const KernelInput<Real>& in, std::size_t q, std::size_t j, double radius_
   pair.radius_sq = radius_sq;
   pair.weight = in.weight[j];
   pair.density = in.density[j];
+  pair.query_radius_sq = in.radius_sq[q];
   return pair;
 }
 
@@ -70,7 +71,7 @@ struct KernelCase {
     return {static_cast<Real>(kRadiusSq), radius_per_query ? in.radius_sq.data() : nullptr};
   }
   double
-  radiusSq(const KernelInput<Real>& in, std::size_t q) const
+  radiusSq(const KernelInput<Real>& in, std::size_t q, std::size_t) const
   {
     return radius_per_query ? static_cast<double>(in.radius_sq[q]) : static_cast<double>(static_cast<Real>(kRadiusSq));
   }
@@ -324,6 +325,84 @@ private:
   static constexpr float kFalloff = 7.5f;
 };
 
+/** The sums of a RIMLS fit; the radius is the datum's. */
+struct ImplicitCase {
+  bool robust = false;
+  double exp_error = 0.0;
+  double normal_falloff = 1.7, residual_falloff = 4.0, close = 0.25;
+
+  std::string name() const { return robust ? "implicit sums, robust" : "implicit sums, plain"; }
+  std::size_t channels() const { return robust ? 11 : 14; }
+  double radiusSq(const KernelInput<float>& in, std::size_t, std::size_t j) const { return 1.0 / inverseSq(in)[j]; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    const AlignedArray<float> inverse_sq = inverseSq(in);
+    kernels::ImplicitSums a;
+    a.queries = in.queries.vectors();
+    a.data = in.data.vectors();
+    a.data_normals = in.data_normals.vectors();
+    a.radius.inverse_sq_per_datum = inverse_sq.data();
+    a.robust = robust;
+    a.value = in.radius_sq.data(); // any numbers of the queries do
+    a.gradient = in.query_normals.vectors();
+    a.normal_falloff = static_cast<float>(normal_falloff);
+    a.residual_falloff = static_cast<float>(residual_falloff);
+    a.weight = out.channel(0);
+    a.height = out.channel(1);
+    a.normal = out.vectors(2);
+    a.slope = out.vectors(5);
+    a.tilt = out.vectors(8);
+    if (!robust) {
+      a.close = static_cast<float>(close);
+      a.count = out.channel(11);
+      a.close_count = out.channel(12);
+      a.inverse_sq = out.channel(13);
+    }
+    set.implicit_sums(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const double ratio = p.r_sq / p.radius_sq, t = 1 - ratio, height = -p.height();
+    // Rounding of the ratio is relative to 1, not to what is left of it; the exponent's is relative to its size.
+    double v = 1, slack = 1;
+    if (robust) {
+      double turn = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        turn += std::pow(p.normal[axis] - p.query_normal[axis], 2);
+      const double exponent = normal_falloff * turn + residual_falloff * std::pow(height - p.query_radius_sq, 2) / p.radius_sq;
+      v = std::exp(-exponent);
+      slack = 1 + exponent;
+    }
+    const double w = std::pow(t, 4) * v, s = std::pow(t, 3) * v / p.radius_sq;
+    const double r = std::sqrt(p.r_sq), w_scale = slack * std::pow(t, 3) * v, s_scale = slack * t * t * v / p.radius_sq;
+    std::vector<Term> sums = {{w, w_scale}, {w * height, w_scale * r}};
+    for (const double component : p.normal)
+      sums.push_back({w * component, w_scale});
+    for (const double component : p.d)
+      sums.push_back({-s * component, s_scale * r});
+    for (const double component : p.d)
+      sums.push_back({-s * component * height, s_scale * p.r_sq});
+    if (!robust) {
+      sums.push_back({1, 1});
+      sums.push_back({ratio < close ? 1.0 : 0.0, 1});
+      sums.push_back({w / p.radius_sq, w_scale / p.radius_sq});
+    }
+    return sums;
+  }
+
+private:
+  static AlignedArray<float>
+  inverseSq(const KernelInput<float>& in)
+  {
+    AlignedArray<float> inverse_sq(in.weight.size());
+    for (std::size_t j = 0; j < inverse_sq.size(); ++j)
+      inverse_sq[j] = 4.0f / in.weight[j];
+    return inverse_sq;
+  }
+};
+
 /** \brief Calls visit(case) for every kernel in every combination of its switches. */
 template <typename Real, typename Visit>
 void
@@ -346,6 +425,7 @@ forEveryCase(const Visit& visit)
         visit(MomentsCase{{per_query}, weighted});
         visit(FieldCase{{per_query}, weighted});
       }
+      visit(ImplicitCase{per_query}); // plain and robust
     }
   }
 }

@@ -56,8 +56,8 @@ checkQuery(const KernelInput<Real>& in, const Case& kernel, const KernelOutput<R
   constexpr double kEpsilon = std::numeric_limits<Real>::epsilon();
   std::vector<Term> sums(kernel.channels(), Term{0, 0});
   std::size_t inside = 0;
-  const double radius_sq = kernel.radiusSq(in, q);
   for (const std::uint32_t j : in.candidates[q]) {
+    const double radius_sq = kernel.radiusSq(in, q, j);
     const Pair pair = pairOf(in, q, j, radius_sq);
     if (std::abs(pair.r_sq / radius_sq - 1) < 8 * kEpsilon)
       return false;

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/common/point_types.h>
+#include <pcl_gpf/filters/impl/rimls_projection.hpp>
+
+#include <pcl/impl/instantiate.hpp>
+#include <pcl/point_types.h>
+
+PCL_INSTANTIATE(RIMLSProjection, PCL_GPF_POINT_TYPES)
