@@ -98,8 +98,21 @@ TEST(EstimateParameters, growsWithNoiseButNotBelowWhatTheSpacingAsksFor)
     return p.gpf.support_radius;
   };
   EXPECT_GT(radius(0.02), 1.5 * radius(0.01));
-  EXPECT_EQ(radius(0.0), radius(1e-6));
+  EXPECT_NEAR(radius(1e-6), radius(0.0), 1e-8);
   EXPECT_GT(radius(0.0), 3 * 0.01);
+}
+
+TEST(EstimateParameters, fineScaleIsBelowTheCoarseOneInEveryLength)
+{
+  for (const double noise : {0.0, 0.004, 0.01, 0.1}) {
+    Parameters fine, coarse;
+    const CloudScale scale{0.01, noise, 1.5, 0.015};
+    estimateParameters(scale, fine.normals, fine.bilateral, fine.gpf, FilterScale::Fine);
+    estimateParameters(scale, coarse.normals, coarse.bilateral, coarse.gpf, FilterScale::Coarse);
+    EXPECT_LT(fine.normals.radius, coarse.normals.radius);
+    EXPECT_LT(fine.bilateral.radius, coarse.bilateral.radius);
+    EXPECT_LT(fine.gpf.support_radius, coarse.gpf.support_radius);
+  }
 }
 
 TEST(EstimateParameters, areLengths)
