@@ -155,18 +155,9 @@ project(const GPFParameters& parameters, FilterScale filter_scale, const std::ve
   return cloud;
 }
 
-void
-copyVector(const SoaBuffer& from, SoaBuffer& to, std::size_t k)
-{
-  to.x[k] = from.x[k];
-  to.y[k] = from.y[k];
-  to.z[k] = from.z[k];
-}
-
-/** Takes the fine result where selectFineScale() says so. */
-void
-combine(const ScaleSelectionParameters& selection, const Packed& packed, FilteredCloud& coarse, const FilteredCloud& fine,
-        std::vector<std::uint8_t>& taken)
+/** The sorted points at which the coarse result is to be replaced, ascending. */
+std::vector<std::uint32_t>
+lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, const FilteredCloud& coarse)
 {
   const PointsView points = packed.index->sorted();
   SoaBuffer positions(points.size);
@@ -175,13 +166,27 @@ combine(const ScaleSelectionParameters& selection, const Packed& packed, Filtere
     positions.y[k] = points.y[k] + coarse.displacements.y[k];
     positions.z[k] = points.z[k] + coarse.displacements.z[k];
   }
-  taken = selectFineScale(selection, *packed.index, positions.view(), coarse.normals.view());
-  for (std::size_t k = 0; k < points.size; ++k) {
-    if (taken[k] == 0)
-      continue;
-    copyVector(fine.displacements, coarse.displacements, k);
-    copyVector(fine.normals, coarse.normals, k);
-    coarse.isolated[k] = fine.isolated[k];
+  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, positions.view(), coarse.normals.view());
+  std::vector<std::uint32_t> places;
+  for (std::size_t k = 0; k < fine.size(); ++k)
+    if (fine[k] != 0)
+      places.push_back(static_cast<std::uint32_t>(k));
+  return places;
+}
+
+/** Puts the results at `places` into the whole. */
+void
+replace(const std::vector<std::uint32_t>& places, const FilteredCloud& fine, FilteredCloud& whole)
+{
+  const auto copy = [](const SoaBuffer& from, std::size_t s, SoaBuffer& to, std::size_t k) {
+    to.x[k] = from.x[s];
+    to.y[k] = from.y[s];
+    to.z[k] = from.z[s];
+  };
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    copy(fine.displacements, s, whole.displacements, places[s]);
+    copy(fine.normals, s, whole.normals, places[s]);
+    whole.isolated[places[s]] = fine.isolated[s];
   }
 }
 
@@ -244,23 +249,31 @@ denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageP
   Packed packed = prepare(input, parameters, runsInDouble(parameters.gpf), scale, result);
   result.seconds_normals = watch.lap();
   const std::vector<std::uint32_t> samples = drawSamples(parameters.gpf, packed);
-  const bool two_scales = filtersTwoScales(parameters);
-  const auto filterAt = [&](FilterScale filter_scale, std::vector<IterationStats>& iterations, double& data_radius) {
-    const DenoiseParameters p = parametersAt(filter_scale, parameters, scale, packed.frame, result);
-    data_radius = 0.5 * p.gpf.support_radius;
+  const auto filterAt = [&](FilterScale filter_scale, const DenoiseParameters& p, const std::vector<std::uint32_t>& seeds,
+                            std::vector<IterationStats>& iterations) {
     makeNormals(input, p, filter_scale, packed, progress, result);
     const Stopwatch filter_watch;
-    FilteredCloud cloud = project(p.gpf, filter_scale, samples, packed, progress, iterations);
+    FilteredCloud cloud = project(p.gpf, filter_scale, seeds, packed, progress, iterations);
     result.seconds_filter += filter_watch.elapsed();
     return cloud;
   };
-  ScaleSelectionParameters selection{scale.noise, scale.spacing, 0.0, 0.0, parameters.number_of_threads};
-  FilteredCloud cloud = filterAt(two_scales ? FilterScale::Coarse : FilterScale::Single, result.iterations, selection.coarse_radius);
+  const bool two_scales = filtersTwoScales(parameters) && scale.spacing > 0.0;
+  const FilterScale first = two_scales ? FilterScale::Coarse : FilterScale::Single;
+  const DenoiseParameters p = parametersAt(first, parameters, scale, packed.frame, result);
+  FilteredCloud cloud = filterAt(first, p, samples, result.iterations);
   watch.lap();
-  if (two_scales && scale.spacing > 0.0) {
-    const FilteredCloud fine = filterAt(FilterScale::Fine, result.fine_iterations, selection.fine_radius);
+  if (two_scales) {
+    const DenoiseParameters fine = parametersAt(FilterScale::Fine, parameters, scale, packed.frame, result);
+    const std::vector<std::uint32_t> places =
+        lostDetail({scale.noise, scale.spacing, 0.5 * fine.gpf.support_radius, 0.5 * p.gpf.support_radius, parameters.number_of_threads},
+                   packed, cloud);
+    result.seconds_filter += watch.lap();
+    if (!places.empty())
+      replace(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
     watch.lap();
-    combine(selection, packed, cloud, fine, result.fine);
+    result.fine.assign(packed.rows.size(), 0);
+    for (const std::uint32_t k : places)
+      result.fine[k] = 1;
   }
   result.limited_points = limitMoves(longestMove(wanted, scale, packed.frame), cloud.displacements);
   unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);

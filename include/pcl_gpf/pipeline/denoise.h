@@ -61,7 +61,7 @@ struct DenoiseResult {
   CloudScale scale;                          ///< of the input, cloud units
   std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units
   std::vector<IterationStats> iterations;    ///< of GPF; variance in the normalised frame, movements in cloud units
-  std::vector<IterationStats> fine_iterations; ///< the same at the fine scale
+  std::vector<IterationStats> fine_iterations; ///< the same at the fine scale; empty where no point needs it
   std::size_t non_finite_points = 0;
   std::size_t estimated_normals = 0;         ///< normals that the input did not have
   double seconds_normals = 0;
