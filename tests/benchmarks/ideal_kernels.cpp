@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "benchmarks/ideal_kernels.h"
 
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL) // as kernels_dispatch.cpp
+// As kernels_dispatch.cpp.
+#ifdef PCL_GPF_FEW_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_AVX3 | HWY_SSE4)
+#else
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "benchmarks/ideal_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -39,7 +44,14 @@ IfThenElseZero(Mask, V value)
 
 using namespace kernels;
 using namespace kernels::HWY_NAMESPACE;
-namespace hn = without_mask; // found before the name in kernels
+namespace hn = without_mask; // found before the name in kernels, as is the next
+
+template <class D, class Mask>
+HWY_INLINE bool
+skips(D, Mask)
+{
+  return false;
+}
 
 } // namespace HWY_NAMESPACE
 } // namespace ideal
@@ -49,6 +61,7 @@ HWY_AFTER_NAMESPACE();
 // The accumulators' own text, in a namespace where `hn` is without_mask.
 #define kernels ideal
 #include "core/kernels/bilateral_normals-inl.h"
+#include "core/kernels/field_sums-inl.h"
 #include "core/kernels/gaussian_sums-inl.h"
 #include "core/kernels/projection-inl.h"
 #include "core/kernels/repulsion-inl.h"
@@ -59,30 +72,37 @@ namespace pcl_gpf {
 namespace ideal {
 namespace HWY_NAMESPACE {
 
+// The loops that the benchmark's arguments choose in kernels_dispatch.cpp.
 template <class D>
-using DefaultProjection = ProjectionSum<D, true, true, false, false, true>;
+using DefaultProjection = ProjectionSum<D, true, true, false, false, false, true>;
 template <class D>
-using PaperProjection = ProjectionSum<D, false, false, true, true, false>;
+using PaperProjection = ProjectionSum<D, false, false, true, true, true, false>;
 template <class D>
-using SignInvariantNormals = BilateralNormalSum<D, true>;
+using SignInvariantNormals = BilateralNormalSum<D, true, false>;
+template <class D>
+using PlainMoments = MomentSum<D, false>;
+template <class D>
+using AgreeingFields = FieldSum<D, true>;
 
 template <template <class> class Sum, typename Real, class Arguments>
 static void
 run(const Arguments& arguments, std::size_t data_count, std::size_t passes)
 {
-  const QueryTag<Real> d;
+  using D = QueryTag<Real>;
+  const D d;
   for (std::size_t pass = 0; pass < passes; ++pass)
     for (std::size_t first = 0; first < kQueryBlock; first += hwy::HWY_NAMESPACE::Lanes(d)) {
-      Sum<QueryTag<Real>> sum(arguments, d, first);
-      for (std::size_t j = 0; j < data_count; ++j)
-        sum.pair(SharedDatum<QueryTag<Real>>{kQueryBlock + j});
+      Sum<D> sum(arguments, d, first);
+      SharedDatum<D, 1> datum = {};
+      for (datum.index[0] = kQueryBlock; datum.index[0] < kQueryBlock + data_count; ++datum.index[0])
+        sum.pair(datum);
       sum.store();
     }
 }
 
-static const LoopSet kLoops = {run<DefaultProjection, float>, run<SignInvariantNormals, float>, run<MomentSum, float>,
-                               run<GaussianSum, float>,       run<RepulsionSum, float>,         run<PaperProjection, double>,
-                               run<GaussianSum, double>,      run<RepulsionSum, double>};
+static const LoopSet kLoops = {run<DefaultProjection, float>, run<SignInvariantNormals, float>, run<PlainMoments, float>,
+                               run<AgreeingFields, float>,    run<GaussianSum, float>,          run<RepulsionSum, float>,
+                               run<PaperProjection, double>,  run<GaussianSum, double>,         run<RepulsionSum, double>};
 
 } // namespace HWY_NAMESPACE
 } // namespace ideal

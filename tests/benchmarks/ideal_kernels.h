@@ -21,6 +21,7 @@ struct LoopSet {
   Loop<kernels::Projection<float>> projection_default;
   Loop<kernels::BilateralNormals> bilateral_normals;
   Loop<kernels::Moments> moments;
+  Loop<kernels::FieldSums> field_sums;
   Loop<kernels::GaussianSums<float>> gaussian_sums;
   Loop<kernels::Repulsion<float>> repulsion;
   Loop<kernels::Projection<double>> projection_paper_double;

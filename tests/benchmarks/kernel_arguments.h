@@ -118,4 +118,23 @@ moments(Sums<float>& out)
   return a;
 }
 
+/** Two fields that are at hand stand for the heights and their like. */
+inline kernels::FieldSums
+fieldSums(Sums<float>& out)
+{
+  const Scene<float>& s = scene<float>();
+  kernels::FieldSums a;
+  a.queries = a.data = s.points.vectors();
+  a.query_normals = a.data_normals = s.normals.vectors();
+  a.radius = radius<float>();
+  a.normal_falloff = 3.41f;
+  a.first_field = s.ones.data();
+  a.second_field = s.points.vectors().z;
+  a.count = out.one();
+  a.weight_sum = out.one();
+  a.first_sum = out.one();
+  a.second_sum = out.one();
+  return a;
+}
+
 } // namespace pcl_gpf::benchmark_arguments

@@ -101,6 +101,7 @@ addAll(benchmark_report::RatioReporter& reporter, const kernels::KernelTarget& t
   add(reporter, "projection_default" + end, kProjectionDefault, set.projection_float, loops->projection_default, defaultProjection);
   add(reporter, "bilateral_normals" + end, kBilateralNormals, set.bilateral_normals, loops->bilateral_normals, bilateralNormals);
   add(reporter, "moments" + end, kMoments, set.moments, loops->moments, moments);
+  add(reporter, "field_sums" + end, kFieldSums, set.field_sums, loops->field_sums, fieldSums);
   add(reporter, "gaussian_sums" + end, kGaussianSums, set.gaussian_sums_float, loops->gaussian_sums, gaussianSums<float>);
   add(reporter, "repulsion" + end, kRepulsion, set.repulsion_float, loops->repulsion, repulsion<float>);
   add(reporter, "projection_paper_double" + end, kProjectionPaperDouble, set.projection_double, loops->projection_paper_double,

@@ -25,6 +25,7 @@ expectSameBits(const char* name, Kernel kernel, ideal::Loop<Arguments> loop, Arg
   candidates.query_count = kQueryBlock;
   candidates.run_offsets = run_offsets;
   candidates.runs = runs;
+  candidates.absent = kPoints;
   Sums<Real> real_sums, ideal_sums;
   Arguments arguments = make(real_sums);
   arguments.radius.radius_sq = kEverywhere;
@@ -57,6 +58,7 @@ TEST(IdealKernels, ComputeWhatTheKernelsDoWhereAllDataAreInReach)
     expectSameBits("projection_default", set.projection_float, loops->projection_default, defaultProjection);
     expectSameBits("bilateral_normals", set.bilateral_normals, loops->bilateral_normals, bilateralNormals);
     expectSameBits("moments", set.moments, loops->moments, moments);
+    expectSameBits("field_sums", set.field_sums, loops->field_sums, fieldSums);
     expectSameBits("gaussian_sums", set.gaussian_sums_float, loops->gaussian_sums, gaussianSums<float>);
     expectSameBits("repulsion", set.repulsion_float, loops->repulsion, repulsion<float>);
     expectSameBits("projection_paper_double", set.projection_double, loops->projection_paper_double, paperProjection);
