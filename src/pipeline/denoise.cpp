@@ -5,6 +5,7 @@
 
 #include "packed_cloud.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -96,6 +97,10 @@ prepare(const DenoiseInput& input, DenoiseParameters& parameters, bool with_rema
   return packed;
 }
 
+/** Rounds and angle of the bilateral normal filter at the fine scale, at most. */
+constexpr unsigned kFineRounds = 3;
+constexpr double kFineAngle = 25.0;
+
 /** Fills the lengths that are to be estimated and notes where they came from. */
 DenoiseParameters
 parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,
@@ -105,6 +110,10 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
     origin.value = frame.lengthToWorld(origin.value);
     origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
     result.parameters.push_back(std::move(origin));
+  }
+  if (filter_scale == FilterScale::Fine) { // further rounds would turn small bosses into slopes
+    parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
+    parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
   }
   return parameters;
 }

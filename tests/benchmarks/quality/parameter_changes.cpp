@@ -2,6 +2,7 @@
 #include "parameter_changes.h"
 #include "numbers.h"
 
+#include <limits>
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
@@ -25,6 +26,9 @@ const Ablation kAblations[] = {
     {"no-weight-floor", "each face by itself", [](DenoiseParameters& p) { p.gpf.normal_weight_floor = 0; }},
     {"no-bilateral", "normals of plane fits as they are", [](DenoiseParameters& p) { p.bilateral.iterations = 0; }},
     {"one-iteration", "", [](DenoiseParameters& p) { p.gpf.maximum_iterations = 1; }},
+    {"one-scale", "the lengths of a filter that runs alone", [](DenoiseParameters& p) { p.two_scales = false; }},
+    {"no-limit", "moves of any length",
+     [](DenoiseParameters& p) { p.max_move = std::numeric_limits<double>::infinity(); }},
     {"posterior", "eq. 3's normalisation, sigma still fixed",
      [](DenoiseParameters& p) { p.gpf.posterior_normalization = true; }},
     {"one-degree", "sigma updated with one degree of freedom, posteriors normalised",
