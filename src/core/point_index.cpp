@@ -3,6 +3,7 @@
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/point_index.h>
 
+#include "compact_order.h"
 #include "sorted_points.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ PointIndex::PointIndex(PointsView points, unsigned number_of_threads)
   if (points.size > kMostPoints)
     throw ExcessiveWork(std::to_string(points.size) + " points; the limit of one cloud is " + std::to_string(kMostPoints));
   const std::size_t threads = resolveThreads(number_of_threads);
-  order_ = hilbertOrder(points, threads);
+  order_ = compactOrder(points, threads);
   positions_ = SoaBuffer(size() + kQueryBlock);
   const auto one = [&](const float* from, AlignedArray<float>& to) {
     parallelBlocks(size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {

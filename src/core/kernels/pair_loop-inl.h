@@ -65,7 +65,8 @@ template <class D>
 class CandidateFilter {
 public:
   using Real = hn::TFromD<D>;
-  using Index = hn::TFromD<hn::RebindToSigned<D>>;
+  using Indices = hn::RebindToSigned<D>;
+  using Index = hn::TFromD<Indices>;
 
   /** For the queries [first, end) of `count`; those beyond the count have no candidates. */
   HWY_INLINE
@@ -89,17 +90,18 @@ public:
                                : Real(-1);
   }
 
-  /** Writes the survivors of one vector of candidates [j, end), and anything behind them. \return their number */
+  /** Writes the survivors of one vector of candidates, those before `end`, and anything behind them. \param[in] j the first of them
+   * \return number of survivors */
   HWY_INLINE std::size_t
-  filter(D d, const Lanes3<D>& position, std::size_t j, std::size_t end, Index* survivors) const
+  filter(D d, const Lanes3<D>& position, std::size_t j, hn::Vec<Indices> indices, hn::Vec<Indices> end, Index* survivors) const
   {
-    const hn::RebindToSigned<D> di;
+    const Indices di;
     const auto gap_x = gap(d, position.x, 0), gap_y = gap(d, position.y, 1), gap_z = gap(d, position.z, 2);
     auto distance_sq = hn::Add(hn::Add(hn::Mul(gap_x, gap_x), hn::Mul(gap_y, gap_y)), hn::Mul(gap_z, gap_z));
     if (inverse_sq_) // in units of the datum's own radius
       distance_sq = hn::Mul(distance_sq, hn::LoadU(d, inverse_sq_ + j));
-    const auto near = hn::And(hn::RebindMask(di, hn::Lt(distance_sq, hn::Set(d, radius_sq_))), hn::FirstN(di, end - j));
-    hn::StoreU(hn::Compress(hn::Iota(di, static_cast<Index>(j)), near), di, survivors);
+    const auto near = hn::And(hn::RebindMask(di, hn::Lt(distance_sq, hn::Set(d, radius_sq_))), hn::Lt(indices, end));
+    hn::StoreU(hn::Compress(indices, near), di, survivors);
     return hn::CountTrue(di, near);
   }
 
@@ -122,7 +124,11 @@ public:
   static constexpr std::size_t kParts = partsOf<D>();
   using Filter = CandidateFilter<D>;
 
-  explicit HWY_INLINE Survivors(D d) : upper_(hn::Not(hn::FirstN(d, hn::Lanes(d) / 2))) {}
+  explicit HWY_INLINE
+  Survivors(D d)
+  : steps_(hn::Iota(typename Filter::Indices(), 0)) // Highway makes it in memory: not in the loop
+  , upper_(hn::Not(hn::FirstN(d, hn::Lanes(d) / 2)))
+  {}
 
   /** Passes the candidates of a block's runs to `sum`, for the queries of one vector. */
   template <class Sum, class Arguments>
@@ -133,17 +139,21 @@ public:
     const Filter filters[2] = {Filter(a.queries, first, kParts == 2 ? half : last, count, a.radius),
                                Filter(a.queries, kParts == 2 ? half : first, last, count, a.radius)};
     std::size_t found_0 = 0, found_1 = 0; // not an array: they stay in registers
-    for (std::size_t r = candidates.run_offsets[block]; r < candidates.run_offsets[block + 1]; ++r)
+    const typename Filter::Indices di;
+    for (std::size_t r = candidates.run_offsets[block]; r < candidates.run_offsets[block + 1]; ++r) {
+      const auto end = hn::Set(di, static_cast<Index>(candidates.runs[r].end));
       for (std::size_t j = candidates.runs[r].begin; j < candidates.runs[r].end; j += lanes) {
         const Lanes3<D> position = loadQueries(d, a.data, j);
-        found_0 += filters[0].filter(d, position, j, candidates.runs[r].end, indices_[0] + found_0);
+        const auto indices = hn::Add(hn::Set(di, static_cast<Index>(j)), steps_);
+        found_0 += filters[0].filter(d, position, j, indices, end, indices_[0] + found_0);
         if (kParts == 2)
-          found_1 += filters[1].filter(d, position, j, candidates.runs[r].end, indices_[kParts - 1] + found_1);
+          found_1 += filters[1].filter(d, position, j, indices, end, indices_[kParts - 1] + found_1);
         if ((found_0 > found_1 ? found_0 : found_1) > kCapacity - lanes) {
           pass(found_0, found_1, candidates, sum);
           found_0 = found_1 = 0;
         }
       }
+    }
     pass(found_0, found_1, candidates, sum);
   }
 
@@ -170,6 +180,7 @@ private:
   }
 
   HWY_ALIGN Index indices_[kParts][kCapacity + kQueryBlock];
+  hn::Vec<typename Filter::Indices> steps_; ///< 0, 1, 2 ...
   hn::Mask<D> upper_;
 };
 
