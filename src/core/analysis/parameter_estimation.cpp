@@ -5,6 +5,7 @@
 #include <pcl_gpf/core/local_frame.h>
 
 #include "../check_range.h"
+#include "distinct_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,17 @@ fill(double& value, ParameterOrigin estimate, std::vector<ParameterOrigin>& orig
   origins.push_back(std::move(estimate));
 }
 
+/** Share of repeated positions from which on each is measured once: patches of piles show no noise, and a tenth of the patches decides. */
+constexpr double kManyRepeated = 0.02;
+
+void
+measureSurface(const PointIndex& points, unsigned number_of_threads, CloudScale& scale)
+{
+  const double apparent_spacing = estimateSpacing(points, number_of_threads);
+  scale.noise = estimateNoise(points, apparent_spacing, number_of_threads);
+  scale.spacing = spacingWithoutNoise(apparent_spacing, scale.noise);
+}
+
 } // namespace
 
 CloudScale
@@ -68,9 +80,11 @@ measureScale(const PointIndex& points, unsigned number_of_threads)
   box.add(bounds.max[0], bounds.max[1], bounds.max[2]);
   scale.diagonal = box.diagonal();
   scale.h0 = scale.diagonal / std::sqrt(static_cast<double>(points.size()));
-  const double apparent_spacing = estimateSpacing(points, number_of_threads);
-  scale.noise = estimateNoise(points, apparent_spacing, number_of_threads);
-  scale.spacing = spacingWithoutNoise(apparent_spacing, scale.noise);
+  if (static_cast<double>(countRepeated(points.sorted())) > kManyRepeated * static_cast<double>(points.size())) {
+    const SoaBuffer distinct = distinctPoints(points.sorted());
+    measureSurface(PointIndex(distinct.view(), number_of_threads), number_of_threads, scale);
+  } else
+    measureSurface(points, number_of_threads, scale);
   return scale;
 }
 

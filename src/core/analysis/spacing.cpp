@@ -2,6 +2,8 @@
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/parallel.h>
 
+#include "distinct_points.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,24 +16,6 @@ namespace {
 constexpr std::size_t kMostProbes = 1024;
 constexpr std::size_t kNeighbor = 16;
 constexpr double kPi = 3.14159265358979323846;
-
-/** Every different position once. */
-SoaBuffer
-distinctPoints(PointsView points)
-{
-  std::vector<std::array<float, 3>> positions(points.size);
-  for (std::size_t i = 0; i < points.size; ++i)
-    positions[i] = {points.x[i], points.y[i], points.z[i]};
-  std::sort(positions.begin(), positions.end());
-  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
-  SoaBuffer distinct(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    distinct.x[i] = positions[i][0];
-    distinct.y[i] = positions[i][1];
-    distinct.z[i] = positions[i][2];
-  }
-  return distinct;
-}
 
 } // namespace
 

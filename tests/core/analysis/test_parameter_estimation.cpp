@@ -52,6 +52,24 @@ TEST(MeasureScale, putsItsMeasurementsTogether)
   EXPECT_EQ(measureScale({}).diagonal, 0.0);
 }
 
+TEST(MeasureScale, countsRepeatedPositionsOnce)
+{
+  const Shape once = turned(cube(4000, 0.01, 1));
+  const CloudScale scale = measureScale(toBuffer(once.points).view());
+  Shape eightfold, with_pile = once;
+  for (std::size_t i = 0; i < once.size(); ++i)
+    for (int copy = 0; copy < 8; ++copy)
+      append(eightfold, once.points[i], once.normals[i]);
+  for (std::size_t i = 0; i < once.size(); ++i) // half of all points in one place, as invalid returns are
+    append(with_pile, once.points[0], once.normals[0]);
+  for (const Shape& shape : {eightfold, with_pile}) {
+    const CloudScale repeated = measureScale(toBuffer(shape.points).view());
+    EXPECT_NEAR(repeated.noise, scale.noise, 0.1 * scale.noise);
+    EXPECT_NEAR(repeated.spacing, scale.spacing, 0.1 * scale.spacing);
+    EXPECT_EQ(repeated.diagonal, scale.diagonal);
+  }
+}
+
 TEST(EstimateParameters, fillsEveryRadiusAndTellsWhy)
 {
   Parameters p;

@@ -21,7 +21,8 @@ struct CloudScale {
   double h0 = 0;       ///< the paper's unit, diagonal / sqrt(N)
 };
 
-/** \brief Measures a cloud. Cost: a fraction of one filter iteration. */
+/** \brief Measures a cloud; where more than 2 % of the points repeat a position (invalid returns at the origin, a scan that was merged
+ * with itself), spacing and noise are those of the different positions. Cost: a fraction of one filter iteration. */
 PCL_GPF_CORE_EXPORT CloudScale
 measureScale(PointsView points, unsigned number_of_threads = 0);
 
