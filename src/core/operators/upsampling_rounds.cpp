@@ -172,10 +172,12 @@ UpsamplingRounds::keepBest(std::vector<std::uint32_t>& chosen, std::size_t count
 bool
 UpsamplingRounds::step()
 {
-  if (size() >= plan_.target)
+  if (size() >= plan_.target && searched_ > 0)
     return false;
   indexPoints();
-  searchGaps();
+  searchGaps(); // even where nothing is to be inserted: result() tells the widest gap
+  if (size() >= plan_.target)
+    return false;
   const float least = leastPriority();
   std::vector<std::uint32_t> chosen = chooseBases(least);
   if (chosen.empty())

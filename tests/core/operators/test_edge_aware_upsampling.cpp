@@ -180,6 +180,17 @@ TEST(EdgeAwareUpsampling, PlaneStaysFlatAndBecomesEven)
   EXPECT_LT(result.widest_gap, 1.3 * spacing);
 }
 
+TEST(EdgeAwareUpsampling, WidestGapIsToldWhereNothingIsInserted)
+{
+  const LocalCloud cloud = toLocalCloud(plane(2000, 0, 5));
+  const EdgeAwareUpsamplingResult same = upsample(cloud, times(1.0)), one_more = upsample(cloud, times(1.0005));
+  EXPECT_EQ(same.parents.size(), 0u);
+  EXPECT_TRUE(same.target_reached);
+  EXPECT_GT(same.widest_gap, 0.0);
+  EXPECT_LE(same.widest_gap, same.radius);
+  EXPECT_GE(same.widest_gap, one_more.widest_gap);
+}
+
 TEST(EdgeAwareUpsampling, EdgeIsSharpenedAndNormalsAreOfOneSideEach)
 {
   const LocalCloud cloud = toLocalCloud(edge(3000, 0, 9));
