@@ -22,6 +22,7 @@ const Ablation kAblations[] = {
      [](DenoiseParameters& p) { p.gpf.data_term = DataTerm::PointToPlane; }},
     {"point-to-plane", "same as no-symmetric", [](DenoiseParameters& p) { p.gpf.data_term = DataTerm::PointToPlane; }},
     {"no-normal-weights", "data weights without normals", [](DenoiseParameters& p) { p.gpf.normal_angle = 90; }},
+    {"one-scale", "no second, finer scale", [](DenoiseParameters& p) { p.two_scales = false; }},
     {"no-weight-floor", "each face by itself", [](DenoiseParameters& p) { p.gpf.normal_weight_floor = 0; }},
     {"no-bilateral", "normals of plane fits as they are", [](DenoiseParameters& p) { p.bilateral.iterations = 0; }},
     {"one-iteration", "", [](DenoiseParameters& p) { p.gpf.maximum_iterations = 1; }},
