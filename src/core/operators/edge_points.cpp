@@ -21,6 +21,8 @@ constexpr double kLeastShare = 0.05;
 constexpr std::size_t kFewestOnFace = 3;
 /** Faces that may meet in one ball. */
 constexpr std::size_t kMostFaces = 3;
+/** Normals that are tried as that of a face. */
+constexpr std::size_t kCandidates = 16;
 
 /** A datum in the ball about a point, relative to it. */
 struct Neighbor {
@@ -52,12 +54,13 @@ meanPlane(std::vector<Neighbor>::const_iterator begin, std::vector<Neighbor>::co
   return plane;
 }
 
-/** The normal with which most others agree; the first of several. */
+/** The one of a few of the normals with which most others agree. */
 Eigen::Vector3f
 commonNormal(const std::vector<Neighbor>& neighbors, float least_cosine)
 {
   std::size_t best = 0, most = 0;
-  for (std::size_t j = 0; j < neighbors.size(); ++j) {
+  const std::size_t step = std::max<std::size_t>(1, neighbors.size() / kCandidates);
+  for (std::size_t j = 0; j < neighbors.size(); j += step) {
     std::size_t votes = 0;
     for (const Neighbor& n : neighbors)
       votes += std::abs(n.normal.dot(neighbors[j].normal)) > least_cosine;

@@ -24,7 +24,7 @@ struct EdgePointsParameters {
 /** \brief Marks the points of a filtered cloud that lie within h / 4 of a sharp edge.
  *
  * The normals in the ball h / 2 fall into faces: those within `angle` of the point's own, then, greedily, the largest set within
- * `angle` of one of the others. Two faces meet in the line of their planes; a point is an edge point when that line is within h / 4.
+ * `angle` of one of (a few of) the others. Two faces meet in the line of their planes; a point is an edge point when that line is within h / 4.
  * Signs of normals do not matter. A face with less than a twentieth of the neighbours, or less than 3, is none.
  *
  * \param[in] positions filtered points, any order \param[in] normals filtered, unit length, one per point
