@@ -64,10 +64,11 @@ limitOutliers(const DenoiseInput& input, double limit, DenoiseResult& result)
     const double length = std::hypot(x, y, z);
     if (!isOutlier(result, k) || !(length > limit * (1.0 - 1e-5)))
       continue;
-    const double share = limit > 0.0 ? std::min(1.0, limit / length * (1.0 - 1e-6)) : 0.0;
-    result.x[k] = input.x[row] + share * x;
-    result.y[k] = input.y[row] + share * y;
-    result.z[k] = input.z[row] + share * z;
+    const double share = length > 0.0 ? std::min(1.0, limit / length * (1.0 - 1e-6)) : 0.0;
+    const auto place = [share](double from, double move) { return move != 0.0 ? from + share * move : from; };
+    result.x[k] = place(input.x[row], x);
+    result.y[k] = place(input.y[row], y);
+    result.z[k] = place(input.z[row], z);
     ++limited;
   }
   return limited;

@@ -146,7 +146,7 @@ TEST(Denoise, keepsEveryPointInOrderByDefault)
   ASSERT_EQ(result.x.size(), cloud.size());
   EXPECT_EQ(result.non_finite_points, 0u);
   EXPECT_EQ(result.estimated_normals, cloud.size());
-  EXPECT_EQ(result.parameters.size(), 3u);
+  EXPECT_EQ(result.parameters.size(), 7u);
   EXPECT_FALSE(result.iterations.empty());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     ASSERT_EQ(result.sample_indices[i], i);

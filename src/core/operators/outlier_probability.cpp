@@ -15,8 +15,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 /** Radius in which support is counted: most of the noise, at least a few neighbours, and no more than are needed to tell. */
 constexpr double kBallNoises = 2.5, kLeastBallSpacings = 3.0, kMostBallSpacings = 8.0;
-/** Width of the surface component: the noise and what its estimate and the surface may be wrong by. */
-constexpr double kNoiseMargin = 1.25, kLeastWidthSpacings = 0.25;
+/** Width of the surface component: the noise and what its estimate and the surface may be wrong by. Beside sharp edges the filter
+ * itself moves points by up to a spacing. */
+constexpr double kNoiseMargin = 1.25, kLeastWidthSpacings = 0.5;
 /** Standard deviations by which support must exceed what outliers leave there. */
 constexpr double kSignificance = 2.0;
 

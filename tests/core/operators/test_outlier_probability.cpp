@@ -54,7 +54,7 @@ parameters()
 double
 literalProbability(const OutlierProbabilityParameters& p, const Scene& scene, std::size_t i)
 {
-  const double ball = std::clamp(2.5 * p.noise, 3 * p.spacing, 8 * p.spacing), width = std::max(1.25 * p.noise, 0.25 * p.spacing);
+  const double ball = std::clamp(2.5 * p.noise, 3 * p.spacing, 8 * p.spacing), width = std::max(1.25 * p.noise, 0.5 * p.spacing);
   double support = 0;
   for (std::size_t j = 0; j < scene.data.size(); ++j)
     support += j != i && distance(scene.data[j], scene.filtered[i]) < ball;
