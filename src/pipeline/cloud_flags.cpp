@@ -5,7 +5,9 @@
 #include <pcl_gpf/core/operators/local_noise.h>
 #include <pcl_gpf/core/operators/outlier_probability.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace pcl_gpf {
 
@@ -35,6 +37,19 @@ lengthsOf(const SoaBuffer& vectors)
   return lengths;
 }
 
+/** Noise that judges outliers: as estimated, which is that of the quietest parts of a cloud, or that of most of the moves. */
+double
+noiseOfMoves(double noise, std::vector<float> moves)
+{
+  constexpr double kQuartileOfNormal = 1.1503; // three of four moves are shorter, in standard deviations
+  constexpr double kMostUneven = 2.0;
+  if (moves.empty())
+    return noise;
+  const auto quartile = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() * 3 / 4);
+  std::nth_element(moves.begin(), quartile, moves.end());
+  return std::clamp(static_cast<double>(*quartile) / kQuartileOfNormal, noise, kMostUneven * noise);
+}
+
 } // namespace
 
 void
@@ -46,8 +61,9 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
   const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
   const std::vector<float> moves = lengthsOf(cloud.displacements);
   if (p.flags.outliers)
-    cloud.outlier = outlierProbabilities({scale.noise, scale.spacing, data_radius, p.gpf.outlier_weight, p.number_of_threads},
-                                         *packed.index, places.view(), moves.data());
+    cloud.outlier = outlierProbabilities(
+        {noiseOfMoves(scale.noise, moves), scale.spacing, data_radius, p.gpf.outlier_weight, p.number_of_threads}, *packed.index,
+        places.view(), moves.data());
   if (p.flags.sigma) {
     std::vector<float> weights(cloud.outlier.size());
     for (std::size_t k = 0; k < weights.size(); ++k)
