@@ -10,13 +10,16 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Shares of outliers between which a second run pays: fewer hardly disturb, more are no outliers. */
+/** Shares of suspects between which a second run pays: fewer hardly disturb, more are no outliers. */
 constexpr double kLeastShare = 0.01, kMostShare = 0.5;
 
+/** Outlier probability above which a point is no data for others: one good point of many does not matter, one bad one does. */
+constexpr float kSuspect = 0.1f;
+
 bool
-isOutlier(const DenoiseResult& result, std::size_t k)
+isSuspect(const DenoiseResult& result, std::size_t k)
 {
-  return result.outlier[k] > DenoiseResult::kOutlier;
+  return result.outlier[k] > kSuspect;
 }
 
 /** Columns of some rows of an input. */
@@ -53,16 +56,16 @@ putBack(const std::vector<T>& from, const std::vector<std::size_t>& places, std:
     to[places[k]] = from[k];
 }
 
-/** Cuts the moves of outliers to the limit of the second run. \return how many reach it */
+/** Cuts the moves of suspects to the limit of the second run. \return how many reach it */
 std::size_t
-limitOutliers(const DenoiseInput& input, double limit, DenoiseResult& result)
+limitSuspects(const DenoiseInput& input, double limit, DenoiseResult& result)
 {
   std::size_t limited = 0;
   for (std::size_t k = 0; k < result.x.size(); ++k) {
     const std::size_t row = result.sample_indices[k];
     const double x = result.x[k] - input.x[row], y = result.y[k] - input.y[row], z = result.z[k] - input.z[row];
     const double length = std::hypot(x, y, z);
-    if (!isOutlier(result, k) || !(length > limit * (1.0 - 1e-5)))
+    if (!isSuspect(result, k) || !(length > limit * (1.0 - 1e-5)))
       continue;
     const double share = length > 0.0 ? std::min(1.0, limit / length * (1.0 - 1e-6)) : 0.0;
     const auto place = [share](double from, double move) { return move != 0.0 ? from + share * move : from; };
@@ -83,7 +86,7 @@ outliersDisturb(const DenoiseParameters& parameters, const DenoiseResult& result
     return false;
   std::size_t count = 0;
   for (std::size_t k = 0; k < result.outlier.size(); ++k)
-    count += isOutlier(result, k);
+    count += isSuspect(result, k);
   const double share = static_cast<double>(count) / static_cast<double>(result.outlier.size());
   return share > kLeastShare && share < kMostShare;
 }
@@ -94,12 +97,12 @@ repeatWithoutOutliers(const DenoiseInput& input, DenoiseResult first, const std:
   std::vector<std::size_t> places;
   std::vector<std::uint32_t> rows;
   for (std::size_t k = 0; k < first.x.size(); ++k)
-    if (!isOutlier(first, k)) {
+    if (!isSuspect(first, k)) {
       places.push_back(k);
       rows.push_back(first.sample_indices[k]);
     }
   DenoiseResult second = filter(PartOfInput(input, rows).view);
-  const std::size_t outliers_limited = limitOutliers(input, second.max_move, first);
+  const std::size_t suspects_limited = limitSuspects(input, second.max_move, first);
   putBack(second.x, places, first.x);
   putBack(second.y, places, first.y);
   putBack(second.z, places, first.z);
@@ -111,7 +114,7 @@ repeatWithoutOutliers(const DenoiseInput& input, DenoiseResult first, const std:
   putBack(second.outlier, places, first.outlier);
   putBack(second.sigma, places, first.sigma);
   putBack(second.edge, places, first.edge);
-  first.limited_points = second.limited_points + outliers_limited;
+  first.limited_points = second.limited_points + suspects_limited;
   first.max_move = second.max_move;
   first.repeated = true;
   first.scale = second.scale;

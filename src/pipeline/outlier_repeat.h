@@ -11,7 +11,7 @@ namespace pcl_gpf {
 bool
 outliersDisturb(const DenoiseParameters& parameters, const DenoiseResult& result);
 
-/** Filters the points that are no outliers once more, by themselves; outliers keep what the first run made of them.
+/** Filters the points that are hardly outliers once more, by themselves; the others keep what the first run made of them.
  * \param[in] filter runs the chain on part of the input \return every point in order, lengths and iterations of the second run */
 DenoiseResult
 repeatWithoutOutliers(const DenoiseInput& input, DenoiseResult first, const std::function<DenoiseResult(const DenoiseInput&)>& filter);

@@ -77,8 +77,8 @@ struct DenoiseResult {
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
   double max_move = 0;                       ///< the limit, cloud units; infinity = none
 
-  bool repeated = false;                     ///< outliers were more than 1 %: the others were filtered once more without them, and
-                                             ///< scale, parameters and iterations are of that run
+  bool repeated = false;                     ///< suspects (outlier > 0.1) were more than 1 %: the others were filtered again without them;
+                                             ///< scale, parameters and iterations are of that second run
 
   CloudScale scale;                          ///< of the input, cloud units
   std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units
