@@ -308,7 +308,7 @@ DenoiseResult
 denoise(const DenoiseInput& input, const DenoiseParameters& parameters, const StageProgress& progress)
 {
   DenoiseResult result = denoiseOnce(input, parameters, progress);
-  if (!outliersDisturb(parameters, result))
+  if (!outliersDisturb(parameters, input, result))
     return result;
   StageProgress again;
   if (progress)

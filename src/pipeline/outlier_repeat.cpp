@@ -10,8 +10,11 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Shares of suspects between which a second run pays: fewer hardly disturb, more are no outliers. */
-constexpr double kLeastShare = 0.01, kMostShare = 0.5;
+/** A second run pays when at least this share are outliers that were drawn in from afar, which is what does the harm; points that only
+ * lack support may be those of a sparse part. */
+constexpr double kLeastDrawnIn = 0.003, kAfarNoises = 4.0;
+/** More suspects than this are no outliers. */
+constexpr double kMostSuspects = 0.5;
 
 /** Outlier probability above which a point is no data for others: one good point of many does not matter, one bad one does. */
 constexpr float kSuspect = 0.1f;
@@ -80,15 +83,21 @@ limitSuspects(const DenoiseInput& input, double limit, DenoiseResult& result)
 } // namespace
 
 bool
-outliersDisturb(const DenoiseParameters& parameters, const DenoiseResult& result)
+outliersDisturb(const DenoiseParameters& parameters, const DenoiseInput& input, const DenoiseResult& result)
 {
   if (result.outlier.empty() || runsInDouble(parameters.gpf) || parameters.gpf.sample_ratio < 1.0)
     return false;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < result.outlier.size(); ++k)
-    count += isSuspect(result, k);
-  const double share = static_cast<double>(count) / static_cast<double>(result.outlier.size());
-  return share > kLeastShare && share < kMostShare;
+  std::size_t suspects = 0, drawn_in = 0;
+  for (std::size_t k = 0; k < result.outlier.size(); ++k) {
+    suspects += isSuspect(result, k);
+    if (!(result.outlier[k] > DenoiseResult::kOutlier))
+      continue;
+    const std::size_t row = result.sample_indices[k];
+    const double move = std::hypot(result.x[k] - input.x[row], result.y[k] - input.y[row], result.z[k] - input.z[row]);
+    drawn_in += move > kAfarNoises * result.scale.noise;
+  }
+  const auto count = static_cast<double>(result.outlier.size());
+  return static_cast<double>(drawn_in) > kLeastDrawnIn * count && static_cast<double>(suspects) < kMostSuspects * count;
 }
 
 DenoiseResult

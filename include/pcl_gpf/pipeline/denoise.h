@@ -19,7 +19,7 @@ namespace pcl_gpf {
 
 /** \brief What denoise() finds out about the points beside filtering them. */
 struct DenoiseFlags {
-  bool outliers = true; ///< DenoiseResult::outlier; more than 1 % of them are left out of the data of the others
+  bool outliers = true; ///< DenoiseResult::outlier; many of them are left out of the data of the others
   bool sigma = false;   ///< DenoiseResult::sigma; outliers do not count in it when they are known
   bool edges = false;   ///< DenoiseResult::edge
 };
@@ -77,7 +77,7 @@ struct DenoiseResult {
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
   double max_move = 0;                       ///< the limit, cloud units; infinity = none
 
-  bool repeated = false;                     ///< suspects (outlier > 0.1) were more than 1 %: the others were filtered again without them;
+  bool repeated = false;                     ///< many outliers were in reach: the points with outlier <= 0.1 were filtered again by themselves;
                                              ///< scale, parameters and iterations are of that second run
 
   CloudScale scale;                          ///< of the input, cloud units
