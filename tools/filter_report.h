@@ -21,6 +21,9 @@ struct FilterRun {
   unsigned threads = 0;
   std::vector<EffectiveParameter> parameters;
   Movement movement;
+  std::string outliers;           ///< keep, flag or drop
+  std::size_t outlier_points = 0, dropped = 0;
+  std::vector<std::string> fields; ///< extra fields written
   double seconds_read = 0.0, seconds_write = 0.0, seconds_total = 0.0;
 };
 

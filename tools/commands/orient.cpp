@@ -47,7 +47,7 @@ chosenParameters(const Options& options, const LoadedCloud& cloud)
   const bool measured = noise.unit == Length::Unit::Spacing || noise.unit == Length::Unit::Diagonal;
   NormalOrientationParameters parameters;
   parameters.neighbors = static_cast<unsigned>(options.count("neighbors"));
-  parameters.noise = noise.resolve(measured ? measureSpacing(cloud, threadCount(options)) : CloudScale());
+  parameters.noise = noise.resolve(measured ? measureCloud(cloud, threadCount(options)) : CloudScale());
   parameters.gap = options.number("gap");
   parameters.number_of_threads = threadCount(options);
   return parameters;
