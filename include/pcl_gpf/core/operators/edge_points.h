@@ -29,7 +29,7 @@ struct EdgePointsParameters {
  *
  * \param[in] positions filtered points, any order \param[in] normals filtered, unit length, one per point
  * \return 1 at edge points, else 0 \throws InvalidParameter
- * Cost: about one filter iteration.
+ * Cost: up to half of the chain that made the cloud (more edges cost more).
  * \note A surface that turns by more than `angle` within h / 2 is an edge at this scale.
  */
 PCL_GPF_CORE_EXPORT std::vector<std::uint8_t>
