@@ -11,6 +11,7 @@
 #include <pcl_gpf/io/errors.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <map>
 
@@ -42,6 +43,18 @@ groupOptions(const std::string& group)
         {"mesh", without(meshOptions(), "orientation")}};
   }();
   return groups.at(group);
+}
+
+/** Help that speaks of another option of the group. */
+void
+renameIn(std::string& help, const std::string& name, const std::string& group)
+{
+  const std::string old_name = "--" + name, new_name = "--" + group + "-" + name;
+  for (std::size_t at = help.find(old_name); at != std::string::npos; at = help.find(old_name, at + new_name.size())) {
+    const std::size_t end = at + old_name.size();
+    if (end == help.size() || (std::isalnum(static_cast<unsigned char>(help[end])) == 0 && help[end] != '-'))
+      help.replace(at, old_name.size(), new_name);
+  }
 }
 
 std::vector<std::string>
@@ -101,6 +114,8 @@ runOptions()
                                 "the file has some"}};
   for (const std::string& group : kGroups)
     for (OptionSpec option : groupOptions(group)) {
+      for (const OptionSpec& other : groupOptions(group))
+        renameIn(option.help, other.name, group);
       option.name = group + "-" + option.name;
       list.push_back(option);
     }
