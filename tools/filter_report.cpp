@@ -16,19 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json
-parametersJson(const std::vector<EffectiveParameter>& parameters)
-{
-  Json object = Json::object();
-  for (const EffectiveParameter& parameter : parameters) {
-    Json& entry = object[parameter.name];
-    std::visit([&entry](const auto& value) { entry["value"] = value; }, parameter.value);
-    entry["origin"] = parameter.origin;
-    entry["reason"] = parameter.reason;
-  }
-  return object;
-}
-
-Json
 iterationsJson(const std::vector<IterationStats>& iterations, double diagonal)
 {
   Json list = Json::array();
@@ -51,6 +38,19 @@ countOnes(const std::vector<std::uint8_t>& flags)
 }
 
 } // namespace
+
+Json
+parametersJson(const std::vector<EffectiveParameter>& parameters)
+{
+  Json object = Json::object();
+  for (const EffectiveParameter& parameter : parameters) {
+    Json& entry = object[parameter.name];
+    std::visit([&entry](const auto& value) { entry["value"] = value; }, parameter.value);
+    entry["origin"] = parameter.origin;
+    entry["reason"] = parameter.reason;
+  }
+  return object;
+}
 
 Json
 filterReport(const FilterRun& run, const DenoiseResult& result, const std::vector<std::string>& warnings)

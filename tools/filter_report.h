@@ -27,6 +27,10 @@ struct FilterRun {
   double seconds_read = 0.0, seconds_write = 0.0, seconds_total = 0.0;
 };
 
+/** \brief Value, origin and reason of each parameter under the name of its option. */
+nlohmann::ordered_json
+parametersJson(const std::vector<EffectiveParameter>& parameters);
+
 /** \brief The report of --json. */
 nlohmann::ordered_json
 filterReport(const FilterRun& run, const DenoiseResult& result, const std::vector<std::string>& warnings);

@@ -24,17 +24,6 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Points on a float lattice look like data and are none. */
-void
-refuseQuantized(const LoadedCloud& cloud, const CloudScale& scale, bool force, Console& console)
-{
-  const Precision precision = judgePrecision(cloud, scale.spacing);
-  if (precision.verdict == Precision::Verdict::Quantized && !force)
-    throw UnsuitableData(describe(precision) + "; --force goes on regardless");
-  if (precision.verdict != Precision::Verdict::Fine)
-    console.warn(describe(precision));
-}
-
 bool
 takesNormalsOfFile(const Options& options, const CloudFile& file)
 {
