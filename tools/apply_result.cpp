@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace pcl_gpf {
 
@@ -35,6 +36,41 @@ summarize(std::vector<double> distances)
   return movement;
 }
 
+using Place = std::array<double, 3>;
+
+/** Moves above this share of the limit were cut. */
+constexpr double kAtLimit = 1.0 - 1e-5;
+
+/** Stores a point; \return how far it is from `before` in the numbers stored. */
+double
+write(CloudFile& cloud, std::size_t row, const std::array<int, 3>& fields, const Place& before, const Place& after)
+{
+  Place moved{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (cloud.value(row, fields[axis]) != after[axis]) // -0 stays -0
+      cloud.setValue(row, fields[axis], after[axis]);
+    moved[axis] = cloud.value(row, fields[axis]) - before[axis];
+  }
+  return std::hypot(moved[0], moved[1], moved[2]);
+}
+
+/** Stores a point no further from `before` than `limit`, whatever the rounding of the fields; as it was when nothing else will do. */
+double
+writeWithin(CloudFile& cloud, std::size_t row, const std::array<int, 3>& fields, const Place& before, const Place& after, double limit)
+{
+  double distance = write(cloud, row, fields, before, after);
+  double share = 1.0;
+  for (int tries = 0; distance > limit && tries < 20; ++tries) {
+    share *= std::min(limit / distance, 0.999);
+    Place nearer = before;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (after[axis] != before[axis])
+        nearer[axis] += share * (after[axis] - before[axis]);
+    distance = write(cloud, row, fields, before, nearer);
+  }
+  return distance > limit ? write(cloud, row, fields, before, before) : distance;
+}
+
 std::vector<float>
 toFloats(const CloudFile& cloud, const std::string& field)
 {
@@ -59,21 +95,28 @@ applyPositions(LoadedCloud& cloud, const DenoiseResult& result, Console& console
   std::array<int, 3> fields{};
   std::transform(kAxes.begin(), kAxes.end(), fields.begin(),
                  [&cloud](const std::string& axis) { return cloud.file.findField(axis); });
-  std::vector<double> distances(result.sample_indices.size());
+  const std::vector<std::uint32_t> rows = rowsOf(cloud, result);
+  std::vector<double> distances(rows.size());
+  std::size_t limited = 0;
   for (std::size_t k = 0; k < distances.size(); ++k) {
     const std::size_t from = result.sample_indices[k];
-    const std::size_t to = all ? from : k;
-    const std::array<double, 3> before{cloud.coordinates.x[from], cloud.coordinates.y[from], cloud.coordinates.z[from]};
-    const std::array<double, 3> after{result.x[k], result.y[k], result.z[k]};
-    std::array<double, 3> moved{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (after[axis] != before[axis])
-        cloud.file.setValue(to, fields[axis], after[axis]);
-      moved[axis] = cloud.file.value(to, fields[axis]) - before[axis];
-    }
-    distances[k] = std::hypot(moved[0], moved[1], moved[2]);
+    const Place before{cloud.coordinates.x[from], cloud.coordinates.y[from], cloud.coordinates.z[from]};
+    distances[k] = writeWithin(cloud.file, rows[k], fields, before, {result.x[k], result.y[k], result.z[k]}, result.max_move);
+    limited += distances[k] > result.max_move * kAtLimit;
   }
-  return summarize(std::move(distances));
+  Movement movement = summarize(distances);
+  movement.limited = limited;
+  movement.of_points = std::move(distances);
+  return movement;
+}
+
+std::vector<std::uint32_t>
+rowsOf(const LoadedCloud& cloud, const DenoiseResult& result)
+{
+  std::vector<std::uint32_t> rows = result.sample_indices;
+  if (rows.size() < cloud.finite)
+    std::iota(rows.begin(), rows.end(), 0u);
+  return rows;
 }
 
 void

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "console.h"
+#include "default_reasons.h"
 #include "filter_parameters.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_gpf {
 
@@ -54,7 +56,7 @@ effectiveParameters(const std::vector<FilterParameter>& table, const Options& op
       effective.origin = "preset";
     for (const ParameterOrigin& origin : estimated)
       if (origin.name == parameter.field) {
-        effective.value = origin.value;
+        effective.value = std::isfinite(origin.value) ? ParameterValue(origin.value) : ParameterValue(std::string("none"));
         effective.origin = origin.origin;
         effective.reason = origin.reason;
       }
@@ -63,6 +65,8 @@ effectiveParameters(const std::vector<FilterParameter>& table, const Options& op
       effective.origin = "user";
       effective.reason = parameter.option.kind == OptionKind::Length ? text : "";
     }
+    if (effective.origin == "default" && effective.reason.empty())
+      effective.reason = reasonOfDefault(parameter.field);
     list.push_back(effective);
   }
   return list;

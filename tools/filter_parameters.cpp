@@ -114,7 +114,7 @@ projectionParameters()
       number("repulsion", "gpf.repulsion_weight", [](P& p) -> double& { return p.gpf.repulsion_weight; }, 0, 0.5,
              "repulsion mu between points; above 0 they also move along the surface, towards an even spread"),
       below(number("outlier-weight", "gpf.outlier_weight", [](P& p) -> double& { return p.gpf.outlier_weight; }, 0, 1,
-                   "weight omega of outliers in the mixture; acts with --posterior-normalization on")),
+                   "weight omega of outliers in the mixture: larger flags more; weighs in the filter with --posterior-normalization on")),
       number("initial-variance", "gpf.initial_variance", [](P& p) -> double& { return p.gpf.initial_variance; }, 0, 1e6,
              "first sigma^2 of the mixture, in units of the squared box diagonal; 0 = (h / 2)^2"),
       words<VarianceUpdate>("variance-update", "gpf.variance_update",
@@ -140,7 +140,13 @@ projectionParameters()
             "keep repulsion in each point's own tangent plane, so that edges stay clean"),
       number("convergence-threshold", "gpf.convergence_threshold",
              [](P& p) -> double& { return p.gpf.convergence_threshold; }, 0, 1,
-             "stop when the mean movement is below this share of h; 0 = run all iterations")};
+             "stop when the mean movement is below this share of h; 0 = run all iterations"),
+      length("max-move", "max_move", [](P& p) -> double& { return p.max_move; },
+             "no point is moved further than this, exactly so in the written numbers"),
+      number("strength", "strength", [](P& p) -> double& { return p.strength; }, 0.5, 2,
+             "times the measured noise that lengths are estimated from; more smooths more"),
+      onOff("two-scales", "two_scales", [](P& p) -> bool& { return p.two_scales; },
+            "filter at two scales and keep the finer result where the coarser one took detail away")};
 }
 
 std::vector<FilterParameter>

@@ -21,8 +21,15 @@ struct FilterRun {
   unsigned threads = 0;
   std::vector<EffectiveParameter> parameters;
   Movement movement;
+  std::string outliers;           ///< keep, flag or drop
+  std::size_t outlier_points = 0, dropped = 0;
+  std::vector<std::string> fields; ///< extra fields written
   double seconds_read = 0.0, seconds_write = 0.0, seconds_total = 0.0;
 };
+
+/** \brief Value, origin and reason of each parameter under the name of its option. */
+nlohmann::ordered_json
+parametersJson(const std::vector<EffectiveParameter>& parameters);
 
 /** \brief The report of --json. */
 nlohmann::ordered_json

@@ -3,7 +3,6 @@
 
 #include "console.h"
 
-#include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/soa_buffer.h>
 #include <pcl_gpf/io/read_cloud.h>
@@ -77,18 +76,6 @@ requireUsable(const LoadedCloud& cloud)
     throw UnsuitableData("none of the " + std::to_string(cloud.file.size()) + " points has finite coordinates");
   if (cloud.box.min == cloud.box.max)
     throw UnsuitableData("all " + std::to_string(cloud.finite) + " finite points are at one place");
-}
-
-CloudScale
-measureSpacing(const LoadedCloud& cloud, unsigned threads)
-{
-  CloudScale scale;
-  if (!hasExtent(cloud))
-    return scale;
-  const LocalFrame frame = localFrame(cloud.box);
-  scale.spacing = frame.lengthToWorld(estimateSpacing(finitePoints(cloud, frame).view(), threads));
-  scale.diagonal = frame.scale;
-  return scale;
 }
 
 CloudScale

@@ -32,10 +32,6 @@ inspectCloud(CloudFile file);
 void
 requireUsable(const LoadedCloud& cloud);
 
-/** \brief Only spacing and diagonal, which is several times faster; zeros elsewhere. */
-CloudScale
-measureSpacing(const LoadedCloud& cloud, unsigned threads);
-
 /** \brief Spacing, noise, diagonal and h0 of the finite points in cloud units; zeros for fewer than 2 different points. */
 CloudScale
 measureCloud(const LoadedCloud& cloud, unsigned threads);

@@ -136,7 +136,7 @@ readMeshParameters(const Options& options, const LoadedCloud& cloud)
     return unit == Length::Unit::Spacing || unit == Length::Unit::Diagonal;
   };
   const bool measured = relative("cell") || relative("radius");
-  readRimls(options, measured ? measureSpacing(cloud, parameters.number_of_threads) : CloudScale(), parameters.rimls);
+  readRimls(options, measured ? measureCloud(cloud, parameters.number_of_threads) : CloudScale(), parameters.rimls);
   return parameters;
 }
 

@@ -142,6 +142,18 @@ Options::given(const std::string& name) const
   return values_.count(name) > 0;
 }
 
+Options
+Options::section(const std::string& prefix, const std::vector<OptionSpec>& table) const
+{
+  Options options;
+  options.table_ = table;
+  for (const OptionSpec& entry : table)
+    for (const std::string& name : {prefix + "-" + entry.name, entry.name})
+      if (const auto value = values_.find(name); value != values_.end())
+        options.values_.emplace(entry.name, value->second);
+  return options;
+}
+
 const std::string&
 Options::text(const std::string& name) const
 {

@@ -66,6 +66,15 @@ public:
   bool
   given(const std::string& name) const;
 
+  /** \brief Takes the values of `other`, of the same table, for options that were not given. */
+  void
+  complete(const Options& other) { values_.insert(other.values_.begin(), other.values_.end()); }
+
+  /** \brief The options "PREFIX-name" as options of another table, which has them as "name"; threads and the like, which both tables
+   * have under one name, are taken over. */
+  Options
+  section(const std::string& prefix, const std::vector<OptionSpec>& table) const;
+
   /** \brief The value written, else the default text, else "". */
   const std::string&
   text(const std::string& name) const;

@@ -3,6 +3,8 @@
 
 #include "console.h"
 
+#include <pcl_gpf/core/errors.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -83,6 +85,16 @@ describe(const Precision& precision)
          (precision.stored_double ? "their doubles hold only floats" : "they are floats") + " in steps of " +
          shortNumber(precision.step) + " so far from the origin, the spacing of the points is " +
          shortNumber(precision.spacing) + "; export them as double, or subtract an offset before storing them as float";
+}
+
+void
+refuseQuantized(const LoadedCloud& cloud, const CloudScale& scale, bool force, Console& console)
+{
+  const Precision precision = judgePrecision(cloud, scale.spacing);
+  if (precision.verdict == Precision::Verdict::Quantized && !force)
+    throw UnsuitableData(describe(precision) + "; --force goes on regardless");
+  if (precision.verdict != Precision::Verdict::Fine)
+    console.warn(describe(precision));
 }
 
 } // namespace pcl_gpf

@@ -36,4 +36,9 @@ nameOf(Precision::Verdict verdict);
 std::string
 describe(const Precision& precision);
 
+/** \brief Points on a float lattice look like data and are none: refused unless `force`; coarse ones get a warning.
+ * \throws UnsuitableData */
+void
+refuseQuantized(const LoadedCloud& cloud, const CloudScale& scale, bool force, Console& console);
+
 } // namespace pcl_gpf

@@ -3,9 +3,12 @@
 #include <pcl_gpf/core/operators/scale_selection.h>
 #include <pcl_gpf/core/parallel.h>
 
+#include "cloud_flags.h"
+#include "outlier_repeat.h"
 #include "packed_cloud.h"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -76,6 +79,14 @@ stageOf(std::string name, const StageProgress& progress)
   return [name = std::move(name), &progress](double fraction) { return progress(name, fraction); };
 }
 
+/** A number in as few digits as tell it, whatever the locale. */
+std::string
+shortText(double value)
+{
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 /** A stage of one of the scales, as the callback sees it. */
 std::string
 stageName(const char* stage, FilterScale filter_scale)
@@ -109,6 +120,8 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
   for (ParameterOrigin& origin : estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale)) {
     origin.value = frame.lengthToWorld(origin.value);
     origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
+    if (parameters.strength != 1.0 && origin.reason.find("noise") != std::string::npos)
+      origin.reason += " x strength " + shortText(parameters.strength);
     result.parameters.push_back(std::move(origin));
   }
   if (filter_scale == FilterScale::Fine) { // further rounds would turn small bosses into slopes
@@ -225,31 +238,35 @@ filtersTwoScales(const DenoiseParameters& p)
   return p.two_scales && estimated && !runsInDouble(p.gpf) && p.gpf.sample_ratio == 1.0 && p.gpf.repulsion_weight == 0.0;
 }
 
+/** Most noises that a point may move. */
+constexpr double kNoises = 6.0;
+
 /** Largest move in the normalised frame; infinity = no limit. */
 double
 longestMove(const DenoiseParameters& wanted, const CloudScale& scale, const LocalFrame& frame)
 {
-  constexpr double kNoises = 6.0;
   if (wanted.max_move > 0.0)
     return frame.lengthToLocal(wanted.max_move);
   const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.support_radius == 0.0;
   return estimated ? kNoises * scale.noise : std::numeric_limits<double>::infinity();
 }
 
-} // namespace
-
+/** Tells where the limit of moves came from. */
 void
-validate(const DenoiseParameters& parameters)
+noteLimit(const DenoiseParameters& wanted, double limit, DenoiseResult& result)
 {
-  validate(parameters.gpf);
-  validate(parameters.bilateral);
-  validate(parameters.normals);
-  if (!(parameters.max_move >= 0.0))
-    throw InvalidParameter("max_move must be >= 0, 0 = estimated");
+  result.max_move = limit;
+  const bool none = std::isinf(limit);
+  std::string reason = none ? "no limit where the radius is given, and in the paper's recursion" : "6 x noise";
+  if (!none && wanted.strength != 1.0)
+    reason += " x strength " + shortText(wanted.strength);
+  const bool user = wanted.max_move > 0.0;
+  result.parameters.push_back({"max_move", limit, user ? "user" : none ? "default" : "estimated", user ? "" : reason});
 }
 
+/** The chain with every point as data. */
 DenoiseResult
-denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageProgress& progress)
+denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const StageProgress& progress)
 {
   DenoiseParameters parameters = wanted;
   DenoiseResult result;
@@ -257,6 +274,8 @@ denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageP
   Stopwatch watch;
   Packed packed = prepare(input, parameters, runsInDouble(parameters.gpf), scale, result);
   result.seconds_normals = watch.lap();
+  const CloudScale measured = scale;
+  scale.noise *= parameters.strength;
   const std::vector<std::uint32_t> samples = drawSamples(parameters.gpf, packed);
   const auto filterAt = [&](FilterScale filter_scale, const DenoiseParameters& p, const std::vector<std::uint32_t>& seeds,
                             std::vector<IterationStats>& iterations) {
@@ -274,7 +293,7 @@ denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageP
   if (two_scales) {
     const DenoiseParameters fine = parametersAt(FilterScale::Fine, parameters, scale, packed.frame, result);
     const std::vector<std::uint32_t> places =
-        lostDetail({scale.noise, scale.spacing, 0.5 * fine.gpf.support_radius, 0.5 * p.gpf.support_radius, parameters.number_of_threads},
+        lostDetail({measured.noise, measured.spacing, 0.5 * fine.gpf.support_radius, 0.5 * p.gpf.support_radius, parameters.number_of_threads},
                    packed, cloud);
     result.seconds_filter += watch.lap();
     if (!places.empty())
@@ -284,10 +303,40 @@ denoise(const DenoiseInput& input, const DenoiseParameters& wanted, const StageP
     for (const std::uint32_t k : places)
       result.fine[k] = 1;
   }
-  result.limited_points = limitMoves(longestMove(wanted, scale, packed.frame), cloud.displacements);
+  findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
+  const double longest = longestMove(wanted, scale, packed.frame);
+  result.limited_points = limitMoves(longest, cloud.displacements);
+  noteLimit(wanted, packed.frame.lengthToWorld(longest), result);
   unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);
   result.seconds_filter += watch.lap();
   return result;
+}
+
+} // namespace
+
+void
+validate(const DenoiseParameters& parameters)
+{
+  validate(parameters.gpf);
+  validate(parameters.bilateral);
+  validate(parameters.normals);
+  if (!(parameters.max_move >= 0.0))
+    throw InvalidParameter("max_move must be >= 0, 0 = estimated");
+  if (!(parameters.strength >= 0.5 && parameters.strength <= 2.0))
+    throw InvalidParameter("strength must be within 0.5 .. 2");
+}
+
+DenoiseResult
+denoise(const DenoiseInput& input, const DenoiseParameters& parameters, const StageProgress& progress)
+{
+  DenoiseResult result = denoiseOnce(input, parameters, progress);
+  if (!outliersDisturb(parameters, input, result))
+    return result;
+  StageProgress again;
+  if (progress)
+    again = [&progress](const std::string& stage, double fraction) { return progress("repeated " + stage, fraction); };
+  return repeatWithoutOutliers(input, std::move(result),
+                               [&](const DenoiseInput& part) { return denoiseOnce(part, parameters, again); });
 }
 
 DenoiseResult

@@ -8,6 +8,7 @@
 #include "packed_cloud.h"
 
 #include <chrono>
+#include <string>
 #include <utility>
 
 namespace pcl_gpf {
@@ -100,6 +101,18 @@ orientSamples(const MeshParameters& parameters, const std::array<double, 3>* vie
   result.oriented = true;
 }
 
+/** Lengths as the core wants them. */
+RimlsMeshParameters
+toLocal(const MeshParameters& parameters, const LocalFrame& frame)
+{
+  RimlsMeshParameters rimls = parameters.rimls;
+  rimls.cell_size = frame.lengthToLocal(rimls.cell_size);
+  rimls.rimls.radius = frame.lengthToLocal(rimls.rimls.radius);
+  rimls.rimls.minimum_radius = frame.lengthToLocal(rimls.rimls.minimum_radius);
+  rimls.number_of_threads = parameters.number_of_threads;
+  return rimls;
+}
+
 SurfaceMesh
 makeMesh(const MeshParameters& parameters, const ProgressCallback& progress, const Samples& samples, MeshResult& result)
 {
@@ -112,12 +125,7 @@ makeMesh(const MeshParameters& parameters, const ProgressCallback& progress, con
     return mesh;
   }
   const LocalFrame& frame = samples.frame;
-  RimlsMeshParameters rimls = parameters.rimls;
-  rimls.cell_size = frame.lengthToLocal(rimls.cell_size);
-  rimls.rimls.radius = frame.lengthToLocal(rimls.rimls.radius);
-  rimls.rimls.minimum_radius = frame.lengthToLocal(rimls.rimls.minimum_radius);
-  rimls.number_of_threads = parameters.number_of_threads;
-  SurfaceMesh mesh = meshRimls(rimls, samples.points.view(), samples.normals.view(), progress, &result.rimls);
+  SurfaceMesh mesh = meshRimls(toLocal(parameters, frame), samples.points.view(), samples.normals.view(), progress, &result.rimls);
   for (double* length :
        {&result.rimls.cell_size, &result.rimls.spacing, &result.rimls.support_radius, &result.rimls.mean_vertex_movement})
     *length = frame.lengthToWorld(*length);
@@ -146,6 +154,19 @@ unpackMesh(const Samples& samples, SurfaceMesh mesh, unsigned threads, MeshResul
 }
 
 } // namespace
+
+void
+checkMeshable(const DenoiseInput& input, const MeshParameters& parameters)
+{
+  validate(parameters.rimls);
+  validate(parameters.poisson);
+  const Packed packed = packPositions(input, false, parameters.number_of_threads);
+  const PointsView points = packed.index->sorted();
+  if (points.size < 4)
+    throw UnsuitableData(std::to_string(points.size) + " finite points make no surface");
+  if (parameters.method == MeshMethod::Rimls)
+    checkMeshMemory(toLocal(parameters, packed.frame), points);
+}
 
 MeshResult
 meshCloud(const DenoiseInput& input, const MeshParameters& parameters, const std::array<double, 3>* viewpoint, const StageProgress& progress)

@@ -136,6 +136,13 @@ unpack(const DenoiseInput& input, Packed packed, FilteredCloud cloud, const std:
     forEach([&](std::size_t k) { to[placeOf(k)] = values[k]; });
   };
   take(cloud.isolated, result.isolated);
+  const auto take_if_there = [&](const auto& values, auto& to) {
+    if (!values.empty())
+      take(values, to);
+  };
+  take_if_there(cloud.outlier, result.outlier);
+  take_if_there(cloud.sigma, result.sigma);
+  take_if_there(cloud.edge, result.edge);
   if (!result.fine.empty())
     take(std::vector<std::uint8_t>(result.fine), result.fine);
   take(cloud.normals.x, result.normal_x);

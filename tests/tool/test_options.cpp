@@ -61,7 +61,7 @@ TEST(ToolOptions, MisspellingsAreAnsweredWithTheRightSpelling)
   expectUsageError({"filter", "in.pcd", "-o", "out.pcd", "--iteration=3"}, {"'--iterations'"});
   expectUsageError({"filter", "in.pcd", "-o", "out.pcd", "--bilateral_angle=3"}, {"'--bilateral-angle'"});
   expectUsageError({"fliter", "in.pcd"}, {"fliter", "'filter'"});
-  expectUsageError({"filter", "in.pcd", "-o", "out.pcd", "--preset", "papre"}, {"--preset", "papre", "'paper'", "default | paper"});
+  expectUsageError({"filter", "in.pcd", "-o", "out.pcd", "--preset", "papre"}, {"--preset", "papre", "'paper'", "default | freeform | prismatic | paper"});
 }
 
 TEST(ToolOptions, AbbreviationsAreNotGuessed)

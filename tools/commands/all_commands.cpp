@@ -9,7 +9,7 @@ allCommands()
 {
   static const std::vector<Command> commands = [] {
     std::vector<Command> list{infoCommand(),    filterCommand(),  normalsCommand(), orientCommand(), upsampleCommand(), meshCommand(),
-                              convertCommand(), compareCommand(), noiseCommand(),   renderCommand()};
+                              runCommand(),     convertCommand(), compareCommand(), noiseCommand(),  renderCommand()};
     for (Command& command : list)
       command.options = command.options + std::vector<OptionSpec>{quietOption(), helpOption()};
     return list;

@@ -19,6 +19,8 @@ upsampleCommand();
 Command
 meshCommand();
 Command
+runCommand();
+Command
 convertCommand();
 Command
 noiseCommand();

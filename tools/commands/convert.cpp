@@ -58,7 +58,7 @@ widestType(const CloudFile& cloud)
 void
 warnWhereFloatIsCoarse(const LoadedCloud& before, const CloudFile& after, Console& console)
 {
-  const Precision precision = judgePrecision(inspectCloud(after), measureSpacing(before, 0).spacing);
+  const Precision precision = judgePrecision(inspectCloud(after), measureCloud(before, 0).spacing);
   if (precision.verdict != Precision::Verdict::Fine)
     console.warn(describe(precision));
 }

@@ -7,12 +7,14 @@
 #include "../option_groups.h"
 #include "../precision.h"
 #include "../progress.h"
+#include "../result_fields.h"
 #include "../stopwatch.h"
 #include "commands.h"
 
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/io/write_cloud.h>
+#include <pcl_gpf/pipeline/presets.h>
 
 #include <nlohmann/json.hpp>
 
@@ -21,17 +23,6 @@
 namespace pcl_gpf {
 
 namespace {
-
-/** Points on a float lattice look like data and are none. */
-void
-refuseQuantized(const LoadedCloud& cloud, const CloudScale& scale, bool force, Console& console)
-{
-  const Precision precision = judgePrecision(cloud, scale.spacing);
-  if (precision.verdict == Precision::Verdict::Quantized && !force)
-    throw UnsuitableData(describe(precision) + "; --force goes on regardless");
-  if (precision.verdict != Precision::Verdict::Fine)
-    console.warn(describe(precision));
-}
 
 bool
 takesNormalsOfFile(const Options& options, const CloudFile& file)
@@ -43,12 +34,16 @@ takesNormalsOfFile(const Options& options, const CloudFile& file)
 }
 
 DenoiseParameters
+presetOf(const std::string& name)
+{
+  return name == "paper" ? paperPreset() : name == "prismatic" ? prismaticPreset() : name == "freeform" ? freeformPreset() : DenoiseParameters();
+}
+
+DenoiseParameters
 chosenParameters(const Options& options, const LoadedCloud& cloud, const CloudScale& scale)
 {
-  DenoiseParameters base;
-  if (options.text("preset") == "paper")
-    base.gpf = GPFParameters::paper();
-  DenoiseParameters parameters = readParameters(filterParameters(), options, scale, base);
+  DenoiseParameters parameters = readParameters(filterParameters(), options, scale, presetOf(options.text("preset")));
+  parameters.flags = neededFlags(options);
   if (options.given("samples")) {
     const Share share = options.share("samples");
     parameters.gpf.sample_ratio =
@@ -72,6 +67,13 @@ allEffective(const Options& options, const DenoiseParameters& used, const Denois
       parameter.origin = "estimated";
       parameter.reason = "(h / 2)^2, squared box diagonals";
     }
+  for (const ParameterOrigin& estimate : result.parameters)
+    for (const FilterParameter& parameter : filterParameters())
+      if (estimate.name == "fine." + parameter.field)
+        list.push_back({"fine-" + parameter.option.name, estimate.value, estimate.origin, estimate.reason});
+  for (EffectiveParameter& parameter : list)
+    if (parameter.name == "two-scales" && used.two_scales && result.fine.empty())
+      parameter = {parameter.name, std::string("off"), parameter.origin, "a radius, repulsion, samples or the paper's recursion is asked for"};
   list.push_back({"samples", used.gpf.sample_ratio, origin("samples", used.gpf.sample_ratio != 1.0), "share of the points"});
   list.push_back({"seed", used.gpf.seed, origin("seed", false), ""});
   return list;
@@ -87,6 +89,7 @@ readInput(const Options& options, Console& console, FilterRun& run)
   LoadedCloud cloud = loadCloud(run.input, console);
   requireUsable(cloud);
   checkOutputHolds(cloud.file, options);
+  checkResultFields(cloud.file, resultFields(options));
   run.input_points = cloud.file.size();
   run.input_finite = cloud.finite;
   run.input_format = nameOf(cloud.file.format);
@@ -107,10 +110,20 @@ void
 writeOutput(const Options& options, LoadedCloud& cloud, const DenoiseResult& result, Console& console, FilterRun& run)
 {
   Stopwatch watch;
-  const bool sampled = result.sample_indices.size() < cloud.finite;
   run.movement = applyPositions(cloud, result, console);
+  const std::vector<std::uint32_t> rows = rowsOf(cloud, result);
   if (!options.given("no-normals"))
-    applyNormals(cloud.file, result, sampled ? std::vector<std::uint32_t>() : result.sample_indices);
+    applyNormals(cloud.file, result, rows);
+  run.fields = resultFields(options);
+  applyResultFields(cloud.file, result, rows, run.movement.of_points, run.fields, console);
+  run.outliers = options.text("outliers");
+  run.outlier_points = countOutliers(result);
+  if (outlierHandling(options) == OutlierHandling::Drop && run.outlier_points > 0) {
+    if (cloud.file.isOrganized())
+      console.say("the cloud is organised no more, because outliers are dropped");
+    dropOutliers(cloud.file, result, rows);
+    run.dropped = run.outlier_points;
+  }
   writeCloud(cloud.file, run.output, writeOptions(options));
   run.points = cloud.file.size();
   run.seconds_write = watch.lap();
@@ -120,11 +133,12 @@ ExitCode
 runFilter(const Options& options)
 {
   checkOutputs(options);
+  resultFields(options); // refuses wrong names before anything is read
   Stopwatch total;
   Console console(options);
   FilterRun run;
   LoadedCloud cloud = readInput(options, console, run);
-  const CloudScale scale = measureSpacing(cloud, threadCount(options));
+  const CloudScale scale = measureCloud(cloud, threadCount(options));
   refuseQuantized(cloud, scale, options.given("force"), console);
   const DenoiseParameters parameters = chosenParameters(options, cloud, scale);
   run.threads = static_cast<unsigned>(resolveThreads(parameters.number_of_threads));
@@ -141,8 +155,8 @@ runFilter(const Options& options)
 std::vector<OptionSpec>
 ownOptions()
 {
-  OptionSpec preset{"preset", OptionKind::Choice, "", "default", "paper: Algorithm 1 of the paper with its literal values"};
-  preset.choices = {"default", "paper"};
+  OptionSpec preset{"preset", OptionKind::Choice, "", "default", "freeform: smooth shapes; prismatic: flat faces and sharp edges; paper: Algorithm 1 with its literal values"};
+  preset.choices = {"default", "freeform", "prismatic", "paper"};
   OptionSpec normals{"normals", OptionKind::Choice, "", "auto", "auto: those of the file if it has any, else estimated"};
   normals.choices = {"auto", "file", "estimate"};
   return {preset,
@@ -162,8 +176,9 @@ filterCommand()
   command.synopsis = "IN -o OUT [options]";
   command.examples = {{{"pcl_gpf_tool filter scan.pcd -o clean.pcd", "everything estimated"},
                        {"pcl_gpf_tool filter scan.ply -o clean.ply --radius 8x --json=report.json", "smoother, with a report"},
-                       {"pcl_gpf_tool filter scan.pcd -o even.pcd --samples 50% --repulsion 0.2", "an even half"}}};
-  command.options = std::vector<OptionSpec>{outputOption()} + ownOptions() + optionsOf(filterParameters()) +
+                       {"pcl_gpf_tool filter scan.pcd -o part.pcd --preset prismatic --outliers drop --fields movement,edge",
+                        "a machined part"}}};
+  command.options = std::vector<OptionSpec>{outputOption()} + ownOptions() + resultFieldOptions() + optionsOf(filterParameters()) +
                     std::vector<OptionSpec>{seedOption(), threadsOption(), formatOption(), overwriteOption(), jsonOption(),
                                             progressOption(), forceOption()};
   command.run = runFilter;

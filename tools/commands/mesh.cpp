@@ -2,11 +2,11 @@
 #include "../apply_result.h"
 #include "../console.h"
 #include "../mesh_options.h"
+#include "../mesh_output.h"
 #include "../mesh_report.h"
 #include "../json_report.h"
 #include "../option_groups.h"
 #include "../progress.h"
-#include "../render/point_colors.h"
 #include "../stopwatch.h"
 #include "commands.h"
 
@@ -17,9 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace pcl_gpf {
@@ -74,39 +72,12 @@ runMesh(const Options& options, const LoadedCloud& cloud, const MeshParameters& 
   return meshCloud(input.view, parameters, viewpoint ? &*viewpoint : nullptr, update);
 }
 
-/** Colours of the points that the vertices come from; empty when the file has none. */
-std::vector<std::uint8_t>
-vertexColors(CloudFile file, std::vector<std::uint32_t> rows)
-{
-  PictureCloud cloud;
-  cloud.file = std::move(file);
-  cloud.rows = std::move(rows);
-  std::vector<std::uint8_t> bytes;
-  for (const Color& color : colorsInFile(cloud))
-    for (const float channel : color)
-      bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(channel, 0.0f, 1.0f))));
-  return bytes;
-}
-
-bool
-needsDouble(const CloudFile& file)
-{
-  const int x = file.findField("x");
-  return x >= 0 && file.fields[static_cast<std::size_t>(x)].type == FieldType::Float64;
-}
-
 void
 writeResult(const Options& options, LoadedCloud& cloud, MeshResult& result, MeshRun& run)
 {
   Stopwatch watch;
-  MeshWriteOptions how;
-  how.overwrite = options.given("overwrite");
-  how.double_coordinates = needsDouble(cloud.file);
-  MeshFile file;
-  file.mesh.vertices = result.vertices;
-  file.mesh.triangles = result.triangles;
-  file.normals = result.normals;
-  file.colors = vertexColors(std::move(cloud.file), result.source_rows);
+  const MeshWriteOptions how = meshWriteOptions(cloud.file, options.given("overwrite"));
+  const MeshFile file = meshFile(result, std::move(cloud.file));
   run.colors = !file.colors.empty();
   writeMesh(file, run.output, how);
   run.seconds_write = watch.lap();

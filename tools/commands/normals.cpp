@@ -41,7 +41,7 @@ runNormals(const Options& options)
   requireUsable(cloud);
   checkOutputHolds(cloud.file, options);
   const CloudScale scale =
-      needsScale(normalTable(), options) ? measureSpacing(cloud, threadCount(options)) : CloudScale();
+      needsScale(normalTable(), options) ? measureCloud(cloud, threadCount(options)) : CloudScale();
   DenoiseParameters parameters = readParameters(normalTable(), options, scale, DenoiseParameters());
   parameters.number_of_threads = threadCount(options);
   const bool file_normals = options.given("keep") && cloud.file.hasNormals();

@@ -3,7 +3,7 @@
 #include "../console.h"
 #include "../json_report.h"
 #include "../option_groups.h"
-#include "../option_values.h"
+#include "../orient_options.h"
 #include "../progress.h"
 #include "../stopwatch.h"
 #include "commands.h"
@@ -14,44 +14,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <optional>
-
 namespace pcl_gpf {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Viewpoint = std::optional<std::array<double, 3>>;
-
-/** What --viewpoint stands for; a file without a sensor has its viewpoint at the origin, which auto takes for none. */
-Viewpoint
-chosenViewpoint(const Options& options, const CloudFile& file)
-{
-  const std::string& text = options.text("viewpoint");
-  const std::array<double, 3> sensor{file.viewpoint[0], file.viewpoint[1], file.viewpoint[2]};
-  if (text == "none" || (text == "auto" && sensor == std::array<double, 3>{}))
-    return std::nullopt;
-  if (text == "auto")
-    return sensor;
-  const std::optional<std::vector<double>> given = parseVector(text);
-  if (!given)
-    throw UsageError("--viewpoint " + text + ": expected auto, none or three numbers, for example 0,0,1.5");
-  return std::array<double, 3>{(*given)[0], (*given)[1], (*given)[2]};
-}
-
-NormalOrientationParameters
-chosenParameters(const Options& options, const LoadedCloud& cloud)
-{
-  const Length noise = options.length("noise");
-  const bool measured = noise.unit == Length::Unit::Spacing || noise.unit == Length::Unit::Diagonal;
-  NormalOrientationParameters parameters;
-  parameters.neighbors = static_cast<unsigned>(options.count("neighbors"));
-  parameters.noise = noise.resolve(measured ? measureSpacing(cloud, threadCount(options)) : CloudScale());
-  parameters.gap = options.number("gap");
-  parameters.number_of_threads = threadCount(options);
-  return parameters;
-}
 
 std::string
 summaryText(const NormalOrientationStatistics& s)
@@ -105,7 +72,7 @@ runOrient(const Options& options)
   const Viewpoint viewpoint = chosenViewpoint(options, cloud.file);
   requireUsable(cloud);
   checkOutputHolds(cloud.file, options);
-  const NormalOrientationParameters parameters = chosenParameters(options, cloud);
+  const NormalOrientationParameters parameters = readOrientationParameters(options, cloud);
   OrientResult result = [&] {
     Progress progress(options);
     const auto update = [&progress](const std::string& name, double done) { return progress.update(name, done); };
@@ -130,27 +97,6 @@ runOrient(const Options& options)
   return kExitOk;
 }
 
-std::vector<OptionSpec>
-ownOptions()
-{
-  const NormalOrientationParameters defaults;
-  OptionSpec neighbors{"neighbors", OptionKind::Count, "N", std::to_string(defaults.neighbors),
-                       "nearest neighbours that each point votes with; more for strong noise, fewer for thin sheets"};
-  neighbors.least = 3;
-  neighbors.most = 100;
-  OptionSpec gap{"gap", OptionKind::Number, "X", "6",
-                 "spacings across which separate parts still vote; 0 = each for itself"};
-  gap.least = 0;
-  gap.most = 100;
-  return {{"viewpoint", OptionKind::Text, "X,Y,Z", "auto",
-           "turn parts toward this point; auto: the viewpoint of the file unless it is 0,0,0; none: closed parts "
-           "outward, others up"},
-          neighbors,
-          {"noise", OptionKind::Length, "LENGTH", "auto",
-           "standard deviation along the normals; shorter offsets tell nothing"},
-          gap};
-}
-
 } // namespace
 
 Command
@@ -165,7 +111,7 @@ orientCommand()
        {"pcl_gpf_tool orient kinect.pcd -o oriented.pcd --viewpoint 0,0,0", "the camera is at the origin"},
        {"pcl_gpf_tool orient noisy.ply -o oriented.ply --neighbors 30", "stronger noise"}}};
   command.options =
-      std::vector<OptionSpec>{outputOption()} + ownOptions() +
+      std::vector<OptionSpec>{outputOption()} + orientOptions() +
       std::vector<OptionSpec>{threadsOption(), formatOption(), overwriteOption(), jsonOption(), progressOption()};
   command.notes =
       "Points stay as they are; normals of the input keep their directions. A cloud without normals gets them first.";

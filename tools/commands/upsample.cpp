@@ -6,6 +6,7 @@
 #include "../option_groups.h"
 #include "../progress.h"
 #include "../stopwatch.h"
+#include "../upsample_options.h"
 #include "commands.h"
 
 #include <pcl_gpf/core/errors.h>
@@ -24,56 +25,6 @@ namespace {
 
 const std::vector<std::string> kAxes{"x", "y", "z"};
 const std::vector<std::string> kNormals{"normal_x", "normal_y", "normal_z"};
-
-bool
-isEdgeAware(const Options& options)
-{
-  return options.text("method") == "ear";
-}
-
-void
-checkOptions(const Options& options)
-{
-  checkOutputs(options);
-  if (options.given("factor") + options.given("count") + options.given("spacing") > 1)
-    throw UsageError("--factor, --count and --spacing exclude each other");
-  const std::vector<const char*> foreign = isEdgeAware(options)
-                                               ? std::vector<const char*>{"mls-order", "seed"}
-                                               : std::vector<const char*>{"edge-sensitivity", "angle", "oriented"};
-  for (const char* name : foreign)
-    if (options.given(name))
-      throw UsageError(std::string("--") + name + " does not go with --method " + options.text("method"));
-}
-
-UpsampleParameters
-chosenParameters(const Options& options, const LoadedCloud& cloud)
-{
-  UpsampleParameters p;
-  p.method = isEdgeAware(options) ? UpsamplingMethod::EdgeAware : UpsamplingMethod::MovingLeastSquares;
-  p.mls_order = static_cast<unsigned>(options.count("mls-order"));
-  p.mls_seed = options.count("seed");
-  EdgeAwareUpsamplingParameters& e = p.edge_aware;
-  e.number_of_threads = threadCount(options);
-  const CloudScale scale = measureSpacing(cloud, e.number_of_threads);
-  e.radius = options.length("radius").resolve(scale);
-  if (options.given("count")) {
-    e.target_count = options.count("count");
-    if (e.target_count < cloud.finite)
-      throw UsageError("--count is " + std::to_string(e.target_count) + ", but the cloud has " + std::to_string(cloud.finite) +
-                       " points already");
-  }
-  else if (options.given("spacing")) {
-    e.spacing = options.length("spacing").resolve(scale);
-    if (!(e.spacing > 0.0))
-      throw UsageError("--spacing must be a length, not auto");
-  }
-  else
-    e.factor = options.number("factor");
-  e.edge_sensitivity = options.number("edge-sensitivity");
-  e.angle = options.number("angle");
-  e.sign_invariant = !options.given("oriented");
-  return p;
-}
 
 bool
 takesNormalsOfFile(const Options& options, const CloudFile& file)
@@ -157,7 +108,7 @@ upsampleReport(const Options& options, const LoadedCloud& cloud, const UpsampleP
   report["parameters"] = {{"method", options.text("method")}, {"target_count", e.target_count}, {"factor", e.factor},
                           {"spacing", e.spacing}, {"radius", result.radius},
                           {"radius_origin", e.radius > 0.0 ? "user" : "estimated"}};
-  if (isEdgeAware(options))
+  if (p.method == UpsamplingMethod::EdgeAware)
     report["parameters"].update({{"edge_sensitivity", e.edge_sensitivity}, {"angle", e.angle}, {"sign_invariant", e.sign_invariant}});
   else
     report["parameters"].update({{"mls_order", p.mls_order}, {"seed", p.mls_seed}});
@@ -171,14 +122,15 @@ upsampleReport(const Options& options, const LoadedCloud& cloud, const UpsampleP
 ExitCode
 runUpsample(const Options& options)
 {
-  checkOptions(options);
+  checkOutputs(options);
+  checkUpsampleOptions(options);
   Stopwatch total, watch;
   Console console(options);
   const LoadedCloud cloud = loadCloud(options.files()[0], console);
   requireUsable(cloud);
   checkOutputHolds(cloud.file, options);
   const bool file_normals = takesNormalsOfFile(options, cloud.file);
-  const UpsampleParameters parameters = chosenParameters(options, cloud);
+  const UpsampleParameters parameters = readUpsampleParameters(options, cloud);
   const double seconds_read = watch.lap();
   const UpsampleResult result = [&] {
     Progress progress(options);
@@ -190,7 +142,7 @@ runUpsample(const Options& options)
   const LoadedCloud output = inspectCloud(assemble(cloud, result));
   writeCloud(output.file, outputPath(options), writeOptions(options));
   const double seconds_write = watch.lap();
-  const double spacing_after = measureSpacing(output, threadCount(options)).spacing;
+  const double spacing_after = measureCloud(output, threadCount(options)).spacing;
   nlohmann::ordered_json report = upsampleReport(options, cloud, parameters, result, output.file.size(), spacing_after);
   const double seconds = total.lap();
   report["seconds"] = {{"read", seconds_read}, {"normals", result.seconds_normals}, {"upsampling", result.seconds_upsampling},
@@ -203,41 +155,6 @@ runUpsample(const Options& options)
               shortNumber(seconds) + " s");
   writeReport(report, options);
   return kExitOk;
-}
-
-std::vector<OptionSpec>
-ownOptions()
-{
-  const EdgeAwareUpsamplingParameters defaults;
-  const auto number = [](const char* name, double least, double most, double value, const char* help) {
-    OptionSpec spec{name, OptionKind::Number, "X", shortNumber(value), help};
-    spec.least = least;
-    spec.most = most;
-    return spec;
-  };
-  OptionSpec count{"count", OptionKind::Count, "N", "", "points of the output in all, at least as many as the input has"};
-  count.least = 3;
-  count.most = 2147483648.0;
-  OptionSpec method{"method", OptionKind::Choice, "", "ear", "ear: gaps are filled, edges first; mls: points on fitted polynomials, "
-                                                             "which smooth the cloud and round edges"};
-  method.choices = {"ear", "mls"};
-  OptionSpec normals{"normals", OptionKind::Choice, "", "auto", "auto: those of the file if it has any, else estimated"};
-  normals.choices = {"auto", "file", "estimate"};
-  OptionSpec order{"mls-order", OptionKind::Count, "N", "2", "mls: degree of the polynomials"};
-  order.least = 0;
-  order.most = 5;
-  OptionSpec angle = number("angle", 0, 90, defaults.angle, "ear: turn of the normals, degrees, at which a neighbour's weight is 1/e");
-  angle.above_least = true;
-  return {number("factor", 1, 1000, 2, "points of the output in all, as a multiple of the input's"),
-          count,
-          {"spacing", OptionKind::Length, "LENGTH", "", "fill up to this distance between neighbours; finer parts stay"},
-          method,
-          number("edge-sensitivity", 0, 10, defaults.edge_sensitivity, "ear: 0 fills evenly, higher values edges first and denser"),
-          angle,
-          {"radius", OptionKind::Length, "LENGTH", "auto", "wider gaps stay open; auto is 3x for ear, 4x for mls"},
-          normals,
-          {"oriented", OptionKind::Flag, "", "", "ear: the normals of the file are consistently oriented; keeps thin sheets apart"},
-          order};
 }
 
 } // namespace
@@ -253,7 +170,7 @@ upsampleCommand()
                        {"pcl_gpf_tool upsample clean.pcd -o dense.pcd --factor 8 --edge-sensitivity 0", "eight times, evenly"},
                        {"pcl_gpf_tool upsample clean.ply -o dense.ply --spacing 0.5x --json=report.json",
                         "until neighbours are half as far apart, with a report"}}};
-  command.options = std::vector<OptionSpec>{outputOption()} + ownOptions() +
+  command.options = std::vector<OptionSpec>{outputOption()} + upsampleOptions() +
                     std::vector<OptionSpec>{seedOption(), threadsOption(), formatOption(), overwriteOption(), jsonOption(),
                                             progressOption()};
   command.notes = "With ear, points of the input stay as they are, and come first; each new point has the other fields of the nearest "

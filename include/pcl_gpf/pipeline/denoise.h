@@ -17,6 +17,13 @@
 
 namespace pcl_gpf {
 
+/** \brief What denoise() finds out about the points beside filtering them. */
+struct DenoiseFlags {
+  bool outliers = true; ///< DenoiseResult::outlier; many of them are left out of the data of the others
+  bool sigma = false;   ///< DenoiseResult::sigma; outliers do not count in it when they are known
+  bool edges = false;   ///< DenoiseResult::edge
+};
+
 /** \brief Parameters of the chain plane normals -> bilateral normal filter -> GPF; 0 = estimated, lengths in cloud units. */
 struct DenoiseParameters {
   PlaneNormalsParameters normals;
@@ -30,6 +37,13 @@ struct DenoiseParameters {
   /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
    * stays as it is. Infinity = no limit. Not applied to the paper's recursion unless it is set. */
   double max_move = 0.0;
+
+  /** Scales every length that comes from the noise, 0.5 .. 2: the noise is taken for this many times what was measured. Larger smooths
+   * more; lengths that the spacing decides (weak noise) stay. */
+  double strength = 1.0;
+
+  /** What is found out beside the filtered points. */
+  DenoiseFlags flags;
 
   unsigned number_of_threads = 0; ///< for all three; 0 = all that the process may use
 };
@@ -56,7 +70,15 @@ struct DenoiseResult {
   std::vector<std::uint32_t> sample_indices; ///< row of the input that seeded each output point, ascending
   std::vector<std::uint8_t> isolated;        ///< 1 = no data in reach but the point itself: nothing filtered it
   std::vector<std::uint8_t> fine;            ///< 1 = the fine scale's result was taken; empty when one scale was filtered
+  static constexpr float kOutlier = 0.5f;    ///< points above are outliers
+  std::vector<float> outlier;                ///< probability 0 .. 1 that the point is none of the surface (outlierProbabilities())
+  std::vector<float> sigma;                  ///< noise that was taken out about the point, cloud units (localNoise())
+  std::vector<std::uint8_t> edge;            ///< 1 = within h / 4 of a sharp edge of the filtered cloud (edgePoints())
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
+  double max_move = 0;                       ///< the limit, cloud units; infinity = none
+
+  bool repeated = false;                     ///< many outliers were in reach: the points with outlier <= 0.1 were filtered again by themselves;
+                                             ///< scale, parameters and iterations are of that second run
 
   CloudScale scale;                          ///< of the input, cloud units
   std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units
@@ -69,7 +91,7 @@ struct DenoiseResult {
   double seconds_filter = 0;
 };
 
-/** \brief Called with the stage ("normals", "bilateral", "filter", then "fine normals", ... where two scales are filtered) and its fraction done; return false to cancel. */
+/** \brief Called with the stage ("normals", "bilateral", "filter", then "fine normals", ... where two scales are filtered, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
 using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
 
 /** \brief Filters a cloud given in double coordinates, every finite point by default; rows that are not finite are left out.

@@ -57,6 +57,11 @@ struct MeshResult {
   double seconds_mesh = 0;
 };
 
+/** \brief Refuses what meshCloud() would refuse for the positions alone, normals may be missing yet; a small part of its time.
+ * \throws InvalidParameter, UnsuitableData, ExcessiveWork */
+PCL_GPF_EXPORT void
+checkMeshable(const DenoiseInput& input, const MeshParameters& parameters);
+
 /** \brief Meshes a cloud with normals given in double coordinates. Stages of the progress: "orient" and "mesh".
  *
  * Rows that are not finite or have no normal are left out.

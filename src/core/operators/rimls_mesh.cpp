@@ -150,6 +150,19 @@ projectVertices(const RimlsSurface& surface, double cell_size, SurfaceMesh& mesh
   return movement / static_cast<double>(std::max<std::size_t>(1, count));
 }
 
+/** Spacing, cell and memory. */
+void
+foresee(const RimlsMeshParameters& parameters, PointsView points, const PointIndex& index, RimlsMeshStatistics& done)
+{
+  done.spacing = estimateSpacing(index, parameters.number_of_threads);
+  if (points.size < kFewestPoints || !(done.spacing > 0.0))
+    throw UnsuitableData(std::to_string(points.size) + " points" + (points.size < kFewestPoints ? "" : " in one place") + " make no surface");
+  const double side = boxSide(points);
+  done.cell_size = parameters.cell_size > 0.0 ? parameters.cell_size : side / parameters.resolution;
+  done.expected_memory = estimateSurfaceMemory(done.spacing * done.spacing * static_cast<double>(points.size), done.cell_size);
+  refuseTooMuchMemory(done.expected_memory, static_cast<double>(parameters.memory_limit), side / done.cell_size);
+}
+
 /** The part [begin, end] of the whole progress. */
 ProgressCallback
 partOf(const ProgressCallback& progress, double begin, double end)
@@ -172,6 +185,16 @@ validate(const RimlsMeshParameters& p)
   checkRange("memory_limit", static_cast<double>(p.memory_limit), p.memory_limit >= 1, ">= 1 byte");
 }
 
+double
+checkMeshMemory(const RimlsMeshParameters& parameters, PointsView points)
+{
+  validate(parameters);
+  const PointIndex index(points, parameters.number_of_threads);
+  RimlsMeshStatistics foreseen;
+  foresee(parameters, points, index, foreseen);
+  return foreseen.expected_memory;
+}
+
 SurfaceMesh
 meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView normals, const ProgressCallback& progress,
           RimlsMeshStatistics* statistics)
@@ -182,13 +205,7 @@ meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView 
   RimlsMeshStatistics own;
   RimlsMeshStatistics& done = statistics ? *statistics : own;
   done = RimlsMeshStatistics();
-  done.spacing = estimateSpacing(index, parameters.number_of_threads);
-  if (points.size < kFewestPoints || !(done.spacing > 0.0))
-    throw UnsuitableData(std::to_string(points.size) + " points" + (points.size < kFewestPoints ? "" : " in one place") + " make no surface");
-  const double side = boxSide(points);
-  done.cell_size = parameters.cell_size > 0.0 ? parameters.cell_size : side / parameters.resolution;
-  done.expected_memory = estimateSurfaceMemory(done.spacing * done.spacing * static_cast<double>(points.size), done.cell_size);
-  refuseTooMuchMemory(done.expected_memory, static_cast<double>(parameters.memory_limit), side / done.cell_size);
+  foresee(parameters, points, index, done);
 
   const RimlsParameters rimls = fitToCells(parameters, done.cell_size, done.spacing);
   const SoaBuffer sorted_normals = [&] {

@@ -2,8 +2,10 @@
 #include "parameter_changes.h"
 #include "numbers.h"
 
-#include <limits>
+#include <pcl_gpf/pipeline/presets.h>
+
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -19,6 +21,8 @@ struct Ablation {
 };
 
 const Ablation kAblations[] = {
+    {"prismatic", "the preset", [](DenoiseParameters& p) { p = prismaticPreset(); }},
+    {"freeform", "the preset", [](DenoiseParameters& p) { p = freeformPreset(); }},
     {"no-symmetric", "the paper's point-to-plane term (also: point-to-plane)",
      [](DenoiseParameters& p) { p.gpf.data_term = DataTerm::PointToPlane; }},
     {"point-to-plane", "same as no-symmetric", [](DenoiseParameters& p) { p.gpf.data_term = DataTerm::PointToPlane; }},
@@ -68,6 +72,7 @@ const Setting kSettings[] = {
     {"variance", "in the frame of diagonal 1",
      [](DenoiseParameters& p, double v, double) { p.gpf.initial_variance = v; }},
     {"repulsion-weight", "mu-hat", [](DenoiseParameters& p, double v, double) { p.gpf.repulsion_weight = v; }},
+    {"strength", "times the noise", [](DenoiseParameters& p, double v, double) { p.strength = v; }},
     {"outlier-weight", "omega", [](DenoiseParameters& p, double v, double) { p.gpf.outlier_weight = v; }},
     {"sample-ratio", "share of the points", [](DenoiseParameters& p, double v, double) { p.gpf.sample_ratio = v; }},
 };

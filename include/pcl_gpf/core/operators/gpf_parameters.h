@@ -34,7 +34,8 @@ struct GPFParameters {
    * 0.05 .. 0.30 is the paper's range for an even resampling; larger values push points across sharp edges. */
   double repulsion_weight = 0.0;
 
-  /** Weight omega of the uniform component (eq. 1), 0 <= omega < 1. Near 1: outliers pull less. Acts through eq. 3 only. */
+  /** Weight omega of the uniform component (eq. 1), 0 <= omega < 1. Near 1: outliers pull less. Acts on the filter through
+   * eq. 3 only; denoise() also takes it as the prior of its outlier probabilities. */
   double outlier_weight = 0.02;
 
   /** Initial sigma^2 of the mixture in the normalised frame, >= 0; 0 = (h / 2)^2, nearly constant weights inside the data ball.

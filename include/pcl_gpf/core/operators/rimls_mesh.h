@@ -68,6 +68,13 @@ struct RimlsMeshStatistics {
   double seconds = 0;
 };
 
+/** \brief The check of the memory that meshRimls() does, alone.
+ * \param[in] points N finite positions in the normalised frame
+ * \return bytes that lattice and mesh will take, estimated
+ * \throws InvalidParameter, UnsuitableData, ExcessiveWork as meshRimls() does */
+PCL_GPF_CORE_EXPORT double
+checkMeshMemory(const RimlsMeshParameters& parameters, PointsView points);
+
 /** \brief Mesh of the RIMLS surface of points with consistently oriented normals.
  *
  * Closed where the points are; elsewhere it ends about two local radii beyond them. Counterclockwise faces look along the normals.

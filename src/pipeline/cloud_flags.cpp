@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud_flags.h"
+
+#include <pcl_gpf/core/operators/edge_points.h>
+#include <pcl_gpf/core/operators/local_noise.h>
+#include <pcl_gpf/core/operators/outlier_probability.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pcl_gpf {
+
+namespace {
+
+/** Places of the filtered points, normalised frame. */
+SoaBuffer
+placesOf(const Packed& packed, const std::vector<std::uint32_t>& samples, const SoaBuffer& displacements)
+{
+  const PointsView points = packed.index->sorted();
+  SoaBuffer places(displacements.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t from = samples.empty() ? k : samples[k];
+    places.x[k] = points.x[from] + displacements.x[k];
+    places.y[k] = points.y[from] + displacements.y[k];
+    places.z[k] = points.z[from] + displacements.z[k];
+  }
+  return places;
+}
+
+std::vector<float>
+lengthsOf(const SoaBuffer& vectors)
+{
+  std::vector<float> lengths(vectors.size());
+  for (std::size_t k = 0; k < lengths.size(); ++k)
+    lengths[k] = std::sqrt(vectors.x[k] * vectors.x[k] + vectors.y[k] * vectors.y[k] + vectors.z[k] * vectors.z[k]);
+  return lengths;
+}
+
+/** Noise that judges outliers: as estimated, which is that of the quietest parts of a cloud, or that of most of the moves. */
+double
+noiseOfMoves(double noise, std::vector<float> moves)
+{
+  constexpr double kQuartileOfNormal = 1.1503; // three of four moves are shorter, in standard deviations
+  constexpr double kMostUneven = 2.0;
+  if (moves.empty())
+    return noise;
+  const auto quartile = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() * 3 / 4);
+  std::nth_element(moves.begin(), quartile, moves.end());
+  return std::clamp(static_cast<double>(*quartile) / kQuartileOfNormal, noise, kMostUneven * noise);
+}
+
+} // namespace
+
+void
+findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radius, const Packed& packed,
+          const std::vector<std::uint32_t>& samples, FilteredCloud& cloud)
+{
+  if (!(scale.spacing > 0.0) || !(p.flags.outliers || p.flags.sigma || p.flags.edges))
+    return;
+  const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
+  const std::vector<float> moves = lengthsOf(cloud.displacements);
+  if (p.flags.outliers)
+    cloud.outlier = outlierProbabilities(
+        {noiseOfMoves(scale.noise, moves), scale.spacing, data_radius, p.gpf.outlier_weight, p.number_of_threads}, *packed.index,
+        places.view(), moves.data());
+  if (p.flags.sigma) {
+    std::vector<float> weights(cloud.outlier.size());
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      weights[k] = 1.0f - cloud.outlier[k];
+    cloud.sigma = localNoise({data_radius, scale.spacing, p.number_of_threads}, places.view(), cloud.normals.view(), moves.data(),
+                             weights.empty() ? nullptr : weights.data());
+    for (float& sigma : cloud.sigma)
+      sigma = static_cast<float>(packed.frame.lengthToWorld(sigma));
+  }
+  if (p.flags.edges) {
+    EdgePointsParameters edges;
+    edges.support_radius = 2.0 * data_radius;
+    edges.spacing = scale.spacing;
+    edges.number_of_threads = p.number_of_threads;
+    cloud.edge = edgePoints(edges, places.view(), cloud.normals.view());
+  }
+}
+
+} // namespace pcl_gpf
