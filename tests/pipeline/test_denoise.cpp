@@ -430,6 +430,27 @@ TEST(Denoise, filtersBesideAnOutlierHoweverFarItIs)
   }
 }
 
+TEST(Denoise, refusesAnOutlierBesideWhichNothingCanBeToldApart)
+{
+  const Shape shape = cube(1000, 0.01, 3);
+  for (const double far : {1e22, static_cast<double>(std::numeric_limits<float>::max()), 1e300}) {
+    Cloud cloud(shape);
+    cloud.add({far, 0, 0});
+    try {
+      denoise(cloud.input(), {});
+      ADD_FAILURE() << far;
+    } catch (const UnsuitableData& error) {
+      EXPECT_NE(std::string(error.what()).find("row 1000 "), std::string::npos) << error.what();
+    }
+  }
+  Cloud pile; // 1 % of the points beside a pile of invalid returns: not the same
+  for (int i = 0; i < 9900; ++i)
+    pile.add({0, 0, 0});
+  for (int i = 0; i < 100; ++i)
+    pile.add(shape.points[static_cast<std::size_t>(i)]);
+  EXPECT_EQ(denoise(pile.input(), {}).x.size(), 10000u);
+}
+
 TEST(Denoise, survivesARadiusBeyondEverything)
 {
   for (const std::size_t count : {20u, 2000u})
