@@ -34,6 +34,8 @@ parseFile(const std::string& path)
   } catch (const Json::parse_error& error) {
     throw IoError(IoErrorKind::Unreadable, path, "byte " + std::to_string(error.byte > 0 ? error.byte - 1 : 0), "JSON",
                   "something else");
+  } catch (const Json::out_of_range&) {
+    throw IoError(IoErrorKind::Unreadable, path, "", "numbers within the range of double", "one beyond it");
   }
 }
 

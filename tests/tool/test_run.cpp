@@ -145,6 +145,7 @@ TEST(ToolRun, RefusesBeforeTheWork)
   badConfig(R"({"mesh": {"resolution": 1}})", 2, "65536");
   badConfig(R"({"mesh": {"resolution": null}})", 2, "mesh-resolution");
   badConfig(R"({"mesh": {"deep": {"resolution": 3}}})", 2, "mesh-deep");
+  badConfig(R"({"mesh": {"resolution": 1e999}})", 3, "range of double");
   badConfig(R"({"config": "other.json"})", 2, "config");
   badConfig(R"({"stages": []})", 2, "stages");
 }
