@@ -4,17 +4,22 @@
 #include <pcl_gpf/core/soa_buffer.h>
 #include <pcl_gpf/core/views.h>
 
-#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace pcl_gpf {
 
-/** \brief Every different position once. Cost: one sort. */
+/** \brief Every different position once. */
 SoaBuffer
 distinctPoints(PointsView points);
 
-/** \brief How many points of an index lie where the one before them lies: almost all that repeat a position, since they share a place
- * on the curve. Cost: one pass. */
-std::size_t
-countRepeated(PointsView sorted);
+/** \brief The first of the points at each position, ascending. Cost: two sorts. */
+std::vector<std::uint32_t>
+differentPoints(PointsView points);
+
+/** \brief Whether more than 2 % of the points of an index lie where the one before them lies, as half of all copies do at least: they
+ * share a place on the curve. Cost: one pass. */
+bool
+repeatsManyPoints(PointsView sorted);
 
 } // namespace pcl_gpf

@@ -49,9 +49,6 @@ fill(double& value, ParameterOrigin estimate, std::vector<ParameterOrigin>& orig
   origins.push_back(std::move(estimate));
 }
 
-/** Share of repeated positions from which on each is measured once: patches of piles show no noise, and a tenth of the patches decides. */
-constexpr double kManyRepeated = 0.02;
-
 void
 measureSurface(const PointIndex& points, unsigned number_of_threads, CloudScale& scale)
 {
@@ -80,7 +77,7 @@ measureScale(const PointIndex& points, unsigned number_of_threads)
   box.add(bounds.max[0], bounds.max[1], bounds.max[2]);
   scale.diagonal = box.diagonal();
   scale.h0 = scale.diagonal / std::sqrt(static_cast<double>(points.size()));
-  if (static_cast<double>(countRepeated(points.sorted())) > kManyRepeated * static_cast<double>(points.size())) {
+  if (repeatsManyPoints(points.sorted())) {
     const SoaBuffer distinct = distinctPoints(points.sorted());
     measureSurface(PointIndex(distinct.view(), number_of_threads), number_of_threads, scale);
   } else

@@ -3,6 +3,7 @@
 #include <pcl_gpf/core/operators/scale_selection.h>
 #include <pcl_gpf/core/parallel.h>
 
+#include "../analysis/distinct_points.h"
 #include "../check_range.h"
 #include "../sorted_points.h"
 
@@ -75,15 +76,12 @@ sumFields(kernels::FieldSums a, const ClusterTree& tree, double radius, Probes& 
                  [&](std::size_t begin, std::size_t end) { kernels::active().field_sums(candidates, a, begin, end); });
 }
 
-/** Heights of the input above the coarse surface, along its normals. */
-AlignedArray<float>
-residualHeights(PointsView input, PointsView positions, NormalsView normals)
+/** Height of a point of the input above the coarse surface, along its normal. */
+float
+residualHeight(PointsView input, PointsView positions, NormalsView normals, std::size_t i)
 {
-  AlignedArray<float> heights(input.size + kQueryBlock);
-  for (std::size_t i = 0; i < input.size; ++i)
-    heights[i] = (input.x[i] - positions.x[i]) * normals.x[i] + (input.y[i] - positions.y[i]) * normals.y[i] +
-                 (input.z[i] - positions.z[i]) * normals.z[i];
-  return heights;
+  return (input.x[i] - positions.x[i]) * normals.x[i] + (input.y[i] - positions.y[i]) * normals.y[i] +
+         (input.z[i] - positions.z[i]) * normals.z[i];
 }
 
 /** Means of heights, and of their squares, over the patches about the probes. */
@@ -91,15 +89,19 @@ void
 averageHeights(PointsView input, PointsView positions, NormalsView normals, double noise, double radius, Probes& probes,
                std::size_t threads)
 {
-  const AlignedArray<float> heights = residualHeights(input, positions, normals);
-  AlignedArray<float> squares(input.size + kQueryBlock);
+  std::vector<std::uint32_t> different; // empty: all
+  if (repeatsManyPoints(input))         // copies are no further evidence
+    different = differentPoints(input);
+  const SortedVectors<float> surface = gather<float>(positions, {}, different, kFarAway, threads);
+  const SortedVectors<float> directions = gather<float>(normals, {}, different, 0.0f, threads);
+  AlignedArray<float> heights(surface.size() + kQueryBlock), squares(surface.size() + kQueryBlock);
   const auto longest_sq = static_cast<float>(kOutlier * kOutlier * noise * noise);
-  for (std::size_t i = 0; i < input.size; ++i)
-    squares[i] = std::min(heights[i] * heights[i], longest_sq);
-  const SortedVectors<float> surface = gather<float>(positions, {}, {}, kFarAway, threads);
-  const SortedVectors<float> directions = gather<float>(normals, {}, {}, 0.0f, threads);
+  for (std::size_t k = 0; k < surface.size(); ++k) {
+    heights[k] = residualHeight(input, positions, normals, different.empty() ? k : different[k]);
+    squares[k] = std::min(heights[k] * heights[k], longest_sq);
+  }
   ClusterTree tree;
-  tree.fit(positions, threads);
+  tree.fit({surface.x.data(), surface.y.data(), surface.z.data(), surface.size()}, threads);
   kernels::FieldSums a;
   a.data = surface.vectors();
   a.data_normals = directions.vectors();

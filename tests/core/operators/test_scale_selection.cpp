@@ -40,11 +40,13 @@ struct Scene {
   }
 
   template <typename Height>
-  explicit Scene(const Height& height, std::size_t count = kCount)
-  : points(sample(height, count).view(), 1), coarse(count), up(count)
+  explicit Scene(const Height& height, std::size_t count = kCount) : Scene(PointIndex(sample(height, count).view(), 1))
+  {}
+
+  explicit Scene(PointIndex index) : points(std::move(index)), coarse(points.size()), up(points.size())
   {
     const PointsView sorted = points.sorted();
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < sorted.size; ++k) {
       coarse.x[k] = sorted.x[k];
       coarse.y[k] = sorted.y[k];
       up.z[k] = 1.0f;
@@ -91,6 +93,20 @@ share(const std::vector<std::uint8_t>& fine)
 TEST(ScaleSelection, noiseAloneIsLeftToTheCoarseScale)
 {
   EXPECT_LT(share(Scene(flat).select()), 0.05);
+}
+
+TEST(ScaleSelection, copiesOfPointsAreNoFurtherEvidence)
+{
+  for (const std::size_t copies : {2u, 3u, 5u}) {
+    SoaBuffer cloud(copies * kCount);
+    const SoaBuffer once = Scene::sample(flat, kCount);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      cloud.x[i] = once.x[i / copies];
+      cloud.y[i] = once.y[i / copies];
+      cloud.z[i] = once.z[i / copies];
+    }
+    EXPECT_LT(share(Scene(PointIndex(static_cast<const SoaBuffer&>(cloud).view(), 1)).select()), 0.05) << copies;
+  }
 }
 
 TEST(ScaleSelection, aBossThatTheCoarseSurfaceLacksIsLeftToTheFineScale)
