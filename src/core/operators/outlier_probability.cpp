@@ -27,8 +27,9 @@ struct Mixture {
   : ball(std::min(std::max(kBallNoises * p.noise, kLeastBallSpacings * p.spacing), kMostBallSpacings * p.spacing))
   , width(std::max(kNoiseMargin * p.noise, kLeastWidthSpacings * p.spacing))
   {
-    const double expected = kPi * p.data_radius * p.data_radius / (p.spacing * p.spacing);
-    uniform = p.outlier_weight * expected / (4.0 / 3.0 * kPi * std::pow(p.data_radius, 3));
+    const double spread = std::max(p.data_radius, ball); // a filter narrower than the spacing does not make outliers of all points
+    const double expected = kPi * spread * spread / (p.spacing * p.spacing);
+    uniform = p.outlier_weight * expected / (4.0 / 3.0 * kPi * std::pow(spread, 3));
     const double background = uniform * 4.0 / 3.0 * kPi * std::pow(ball, 3);
     threshold = background + kSignificance * std::sqrt(background);
     // Mean cross-section of the ball under the noise: turns a number of points into one per area.

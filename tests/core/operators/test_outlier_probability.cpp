@@ -73,6 +73,18 @@ literalProbability(const OutlierProbabilityParameters& p, const Scene& scene, st
   return uniform / (uniform + surface);
 }
 
+TEST(OutlierProbability, aFilterNarrowerThanTheSpacingDoesNotMakeOutliersOfAllPoints)
+{
+  const Scene scene(4000, 0.01);
+  OutlierProbabilityParameters p = parameters();
+  p.data_radius = 3 * p.spacing; // the ball in which support is counted
+  const std::vector<float> at_the_ball = scene.probabilities(p);
+  p.data_radius = 0.1 * p.spacing;
+  EXPECT_EQ(scene.probabilities(p), at_the_ball);
+  const auto flagged = std::count_if(at_the_ball.begin(), at_the_ball.begin() + 4000, [](float q) { return q > 0.5f; });
+  EXPECT_LT(flagged, 40);
+}
+
 TEST(OutlierProbability, agreesWithALiteralEvaluation)
 {
   const Scene scene(3000, 0.01);
