@@ -58,7 +58,7 @@ extents(const SoaBuffer& cloud, const std::vector<std::uint32_t>& order)
 
 TEST(CompactOrder, PermutesEachPatchOfTheCurve)
 {
-  for (const std::size_t size : {0, 1, 2, 3, 8, 255, 256, 257, 1000, 40000}) {
+  for (const std::size_t size : {0u, 1u, 2u, 3u, 8u, 255u, 256u, 257u, 1000u, 40000u}) {
     for (const auto& point : {onWaves, onFewPlaces}) {
       const SoaBuffer cloud = makeCloud(size, point);
       auto curve = hilbertOrder(cloud.view(), 1), order = compactOrder(cloud.view(), 1);

@@ -180,7 +180,7 @@ TEST(Consolidate, refusesBeforeTheWork)
   range = allStages();
   range.viewpoint = {{0, kNaN, 0}};
   EXPECT_THROW(consolidate(cloud.input(), range, watch), InvalidParameter);
-  for (const std::size_t count : {0, 1, 2, 3}) {
+  for (const std::size_t count : {0u, 1u, 2u, 3u}) {
     const Cloud small(count);
     EXPECT_THROW(consolidate(small.input(), allStages(), watch), UnsuitableData) << count;
   }

@@ -162,7 +162,7 @@ TEST(EdgePoints, ofADenseCloudAreThoseOfAThinnerOne)
 
 TEST(EdgePoints, takesFewPointsDuplicatesAndRefusesBadParameters)
 {
-  for (const std::size_t count : {0, 1, 2, 3}) {
+  for (const std::size_t count : {0u, 1u, 2u, 3u}) {
     const Shape shape = plane(count);
     EXPECT_EQ(Buffers(shape).edges(parameters(0.5, 0.1)), std::vector<std::uint8_t>(count, 0));
   }

@@ -83,7 +83,7 @@ TEST(LocalNoise, doesNotDependOnThreadsTakesFewPointsAndRefusesBadParameters)
 {
   const Moved cloud(cube(3000, 0, 5));
   EXPECT_EQ(cloud.noise(0.1, 0.04, true, 1), cloud.noise(0.1, 0.04, true, 3));
-  for (const std::size_t count : {0, 1, 2, 3})
+  for (const std::size_t count : {0u, 1u, 2u, 3u})
     EXPECT_EQ(Moved(plane(count)).noise(0.1, 0.04, false).size(), count);
   Moved unheard(plane(3));
   unheard.weights.assign(3, 0.0f);
