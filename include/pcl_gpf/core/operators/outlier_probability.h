@@ -25,8 +25,9 @@ struct OutlierProbabilityParameters {
  * Two components may have made a point that was found at height r above its filtered place:
  * the surface, with a density of lambda N(r; s) (points per volume), and outliers, with omega times the data that the spacing lets
  * expect in the data ball, evenly over the volume of that ball (no smaller than the one in which support is counted). s is the noise
- * with a quarter added, because surface and noise are estimates, and at least half of the spacing. lambda, the density of the surface per area, is counted where the point was put: input
- * points (not its own) in a ball as wide as the noise, less what outliers alone would put there and twice the standard deviation of that.
+ * with a quarter added, because surface and noise are estimates, and at least half of the spacing. lambda, the density of the
+ * surface per area, is counted where the point was put: input points (not its own) in a ball as wide as the noise, less what
+ * outliers alone would put there and twice the standard deviation of that.
  * So a point is an outlier when it came from too far away, or when hardly any other point is where it went.
  *
  * \param[in] data the unfiltered points \param[in] filtered their filtered places, before moves are bounded, in any order
