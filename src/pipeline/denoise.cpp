@@ -240,15 +240,36 @@ filtersTwoScales(const DenoiseParameters& p)
 
 /** Most noises that a point may move. */
 constexpr double kNoises = 6.0;
+/** Fewest points whose noise can be told (estimateNoise()). */
+constexpr std::size_t kFewestForNoise = 48;
+/** Noise below this share of the spacing is none: the cloud is clean and stays as it is. */
+constexpr double kClean = 0.02;
+/** Where more than this share of the moves is longer than the limit, the noise is uneven and was measured in a quiet part. */
+constexpr double kUneven = 0.1;
+
+double
+shareOfLonger(double longest, const SoaBuffer& moves)
+{
+  std::size_t longer = 0;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    const double x = moves.x[k], y = moves.y[k], z = moves.z[k];
+    longer += x * x + y * y + z * z > longest * longest;
+  }
+  return moves.size() > 0 ? static_cast<double>(longer) / static_cast<double>(moves.size()) : 0.0;
+}
 
 /** Largest move in the normalised frame; infinity = no limit. */
 double
-longestMove(const DenoiseParameters& wanted, const CloudScale& scale, const LocalFrame& frame)
+longestMove(const DenoiseParameters& wanted, const CloudScale& scale, const Packed& packed, const SoaBuffer& moves)
 {
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   if (wanted.max_move > 0.0)
-    return frame.lengthToLocal(wanted.max_move);
+    return packed.frame.lengthToLocal(wanted.max_move);
   const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.support_radius == 0.0;
-  return estimated ? kNoises * scale.noise : std::numeric_limits<double>::infinity();
+  if (!estimated || packed.rows.size() < kFewestForNoise)
+    return kNoLimit;
+  const double limit = kNoises * scale.noise;
+  return scale.noise > kClean * scale.spacing && shareOfLonger(limit, moves) > kUneven ? kNoLimit : limit;
 }
 
 /** Tells where the limit of moves came from. */
@@ -257,7 +278,7 @@ noteLimit(const DenoiseParameters& wanted, double limit, DenoiseResult& result)
 {
   result.max_move = limit;
   const bool none = std::isinf(limit);
-  std::string reason = none ? "no limit where the radius is given, and in the paper's recursion" : "6 x noise";
+  std::string reason = none ? "no limit where the radius is given, in the paper's recursion, and where noise is uneven or cannot be told" : "6 x noise";
   if (!none && wanted.strength != 1.0)
     reason += " x strength " + shortText(wanted.strength);
   const bool user = wanted.max_move > 0.0;
@@ -304,7 +325,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
       result.fine[k] = 1;
   }
   findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
-  const double longest = longestMove(wanted, scale, packed.frame);
+  const double longest = longestMove(wanted, scale, packed, cloud.displacements);
   result.limited_points = limitMoves(longest, cloud.displacements);
   noteLimit(wanted, packed.frame.lengthToWorld(longest), result);
   unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);

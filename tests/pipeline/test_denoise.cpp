@@ -225,6 +225,25 @@ TEST(Denoise, noMoveIsLongerThanTheLimit)
   }
 }
 
+TEST(Denoise, unevenOrUnknownNoiseLimitsNoMove)
+{
+  std::vector<Vector3> points = plane(20000, 0, 5).points;
+  SplitMix64 random(6);
+  for (Vector3& p : points)
+    p[2] += (p[0] < 0.2 ? 0.001 : 0.01) * random.normal(); // the noise is that of the quiet fifth
+  Cloud uneven;
+  for (const Vector3& p : points)
+    uneven.add(p);
+  EXPECT_TRUE(std::isinf(denoise(uneven.input(), {}).max_move));
+  const Cloud few(plane(40, 0.05, 1));
+  const DenoiseResult result = denoise(few.input(), {});
+  EXPECT_TRUE(std::isinf(result.max_move));
+  double moved = 0;
+  for (std::size_t i = 0; i < few.size(); ++i)
+    moved += std::abs(result.z[i] - few.z[i]);
+  EXPECT_GT(moved, 0.0);
+}
+
 TEST(Denoise, leavesACleanCloudAsItIs)
 {
   for (const Shape& shape : {cube(20000), sphere(20000), plane(20000)}) {

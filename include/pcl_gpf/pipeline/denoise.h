@@ -39,7 +39,7 @@ struct DenoiseParameters {
   double max_move = 0.0;
 
   /** Scales every length that comes from the noise, 0.5 .. 2: the noise is taken for this many times what was measured. Larger smooths
-   * more; lengths that the spacing decides (weak noise) stay. */
+   * more; the part of each length that the spacing decides stays. */
   double strength = 1.0;
 
   /** What is found out beside the filtered points. */
