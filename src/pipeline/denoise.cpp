@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/errors.h>
-#include <pcl_gpf/core/operators/scale_selection.h>
 #include <pcl_gpf/core/parallel.h>
 
 #include "cloud_flags.h"
+#include "move_limit.h"
 #include "outlier_repeat.h"
 #include "packed_cloud.h"
+#include "scale_parameters.h"
+#include "two_scales.h"
 
-#include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -79,14 +78,6 @@ stageOf(std::string name, const StageProgress& progress)
   return [name = std::move(name), &progress](double fraction) { return progress(name, fraction); };
 }
 
-/** A number in as few digits as tell it, whatever the locale. */
-std::string
-shortText(double value)
-{
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 /** A stage of one of the scales, as the callback sees it. */
 std::string
 stageName(const char* stage, FilterScale filter_scale)
@@ -106,29 +97,6 @@ prepare(const DenoiseInput& input, DenoiseParameters& parameters, bool with_rema
   result.scale = {packed.frame.lengthToWorld(scale.spacing), packed.frame.lengthToWorld(scale.noise),
                   packed.frame.lengthToWorld(scale.diagonal), packed.frame.lengthToWorld(scale.h0)};
   return packed;
-}
-
-/** Rounds and angle of the bilateral normal filter at the fine scale, at most. */
-constexpr unsigned kFineRounds = 3;
-constexpr double kFineAngle = 25.0;
-
-/** Fills the lengths that are to be estimated and notes where they came from. */
-DenoiseParameters
-parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,
-             DenoiseResult& result)
-{
-  for (ParameterOrigin& origin : estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale)) {
-    origin.value = frame.lengthToWorld(origin.value);
-    origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
-    if (parameters.strength != 1.0 && origin.reason.find("noise") != std::string::npos)
-      origin.reason += " x strength " + shortText(parameters.strength);
-    result.parameters.push_back(std::move(origin));
-  }
-  if (filter_scale == FilterScale::Fine) { // further rounds would turn small bosses into slopes
-    parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
-    parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
-  }
-  return parameters;
 }
 
 /** The normals that the input has, the others from plane fits, all of them filtered. */
@@ -177,114 +145,6 @@ project(const GPFParameters& parameters, FilterScale filter_scale, const std::ve
   return cloud;
 }
 
-/** The sorted points at which the coarse result is to be replaced, ascending. */
-std::vector<std::uint32_t>
-lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, const FilteredCloud& coarse)
-{
-  const PointsView points = packed.index->sorted();
-  SoaBuffer positions(points.size);
-  for (std::size_t k = 0; k < points.size; ++k) {
-    positions.x[k] = points.x[k] + coarse.displacements.x[k];
-    positions.y[k] = points.y[k] + coarse.displacements.y[k];
-    positions.z[k] = points.z[k] + coarse.displacements.z[k];
-  }
-  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, positions.view(), coarse.normals.view());
-  std::vector<std::uint32_t> places;
-  for (std::size_t k = 0; k < fine.size(); ++k)
-    if (fine[k] != 0)
-      places.push_back(static_cast<std::uint32_t>(k));
-  return places;
-}
-
-/** Puts the results at `places` into the whole. */
-void
-replace(const std::vector<std::uint32_t>& places, const FilteredCloud& fine, FilteredCloud& whole)
-{
-  const auto copy = [](const SoaBuffer& from, std::size_t s, SoaBuffer& to, std::size_t k) {
-    to.x[k] = from.x[s];
-    to.y[k] = from.y[s];
-    to.z[k] = from.z[s];
-  };
-  for (std::size_t s = 0; s < places.size(); ++s) {
-    copy(fine.displacements, s, whole.displacements, places[s]);
-    copy(fine.normals, s, whole.normals, places[s]);
-    whole.isolated[places[s]] = fine.isolated[s];
-  }
-}
-
-/** Cuts longer moves to `longest`, normalised frame. \return their number */
-std::size_t
-limitMoves(double longest, SoaBuffer& moves)
-{
-  std::size_t limited = 0;
-  for (std::size_t k = 0; k < moves.size(); ++k) {
-    const double x = moves.x[k], y = moves.y[k], z = moves.z[k];
-    const double length = std::sqrt(x * x + y * y + z * z);
-    if (!(length > longest))
-      continue;
-    const double share = longest / length * (1.0 - 1e-6); // rounding must not pass the limit
-    moves.x[k] = static_cast<float>(x * share);
-    moves.y[k] = static_cast<float>(y * share);
-    moves.z[k] = static_cast<float>(z * share);
-    ++limited;
-  }
-  return limited;
-}
-
-bool
-filtersTwoScales(const DenoiseParameters& p)
-{
-  const bool estimated = p.normals.radius == 0.0 && p.bilateral.radius == 0.0 && p.bilateral.neighbors == 0 && p.gpf.support_radius == 0.0;
-  return p.two_scales && estimated && !runsInDouble(p.gpf) && p.gpf.sample_ratio == 1.0 && p.gpf.repulsion_weight == 0.0;
-}
-
-/** Most noises that a point may move. */
-constexpr double kNoises = 6.0;
-/** Fewest points whose noise can be told (estimateNoise()). */
-constexpr std::size_t kFewestForNoise = 48;
-/** Noise below this share of the spacing is none: the cloud is clean and stays as it is. */
-constexpr double kClean = 0.02;
-/** Where more than this share of the moves is longer than the limit, the noise is uneven and was measured in a quiet part. */
-constexpr double kUneven = 0.1;
-
-double
-shareOfLonger(double longest, const SoaBuffer& moves)
-{
-  std::size_t longer = 0;
-  for (std::size_t k = 0; k < moves.size(); ++k) {
-    const double x = moves.x[k], y = moves.y[k], z = moves.z[k];
-    longer += x * x + y * y + z * z > longest * longest;
-  }
-  return moves.size() > 0 ? static_cast<double>(longer) / static_cast<double>(moves.size()) : 0.0;
-}
-
-/** Largest move in the normalised frame; infinity = no limit. */
-double
-longestMove(const DenoiseParameters& wanted, const CloudScale& scale, const Packed& packed, const SoaBuffer& moves)
-{
-  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  if (wanted.max_move > 0.0)
-    return packed.frame.lengthToLocal(wanted.max_move);
-  const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.support_radius == 0.0;
-  if (!estimated || packed.rows.size() < kFewestForNoise)
-    return kNoLimit;
-  const double limit = kNoises * scale.noise;
-  return scale.noise > kClean * scale.spacing && shareOfLonger(limit, moves) > kUneven ? kNoLimit : limit;
-}
-
-/** Tells where the limit of moves came from. */
-void
-noteLimit(const DenoiseParameters& wanted, double limit, DenoiseResult& result)
-{
-  result.max_move = limit;
-  const bool none = std::isinf(limit);
-  std::string reason = none ? "no limit where the radius is given, in the paper's recursion, and where noise is uneven or cannot be told" : "6 x noise";
-  if (!none && wanted.strength != 1.0)
-    reason += " x strength " + shortText(wanted.strength);
-  const bool user = wanted.max_move > 0.0;
-  result.parameters.push_back({"max_move", limit, user ? "user" : none ? "default" : "estimated", user ? "" : reason});
-}
-
 /** The chain with every point as data. */
 DenoiseResult
 denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const StageProgress& progress)
@@ -318,16 +178,14 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
                    packed, cloud);
     result.seconds_filter += watch.lap();
     if (!places.empty())
-      replace(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
+      replaceAt(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
     watch.lap();
     result.fine.assign(packed.rows.size(), 0);
     for (const std::uint32_t k : places)
       result.fine[k] = 1;
   }
   findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
-  const double longest = longestMove(wanted, scale, packed, cloud.displacements);
-  result.limited_points = limitMoves(longest, cloud.displacements);
-  noteLimit(wanted, packed.frame.lengthToWorld(longest), result);
+  limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud.displacements, result);
   unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);
   result.seconds_filter += watch.lap();
   return result;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "move_limit.h"
+
+#include "scale_parameters.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pcl_gpf {
+
+namespace {
+
+/** Most noises that a point may move. */
+constexpr double kNoises = 6.0;
+/** Fewest points whose noise can be told (estimateNoise()). */
+constexpr std::size_t kFewestForNoise = 48;
+/** Noise below this share of the spacing is none: the cloud is clean and stays as it is. */
+constexpr double kClean = 0.02;
+/** Where more than this share of the moves is longer than the limit, the noise is uneven and was measured in a quiet part. */
+constexpr double kUneven = 0.1;
+
+double
+length(const SoaBuffer& moves, std::size_t k)
+{
+  const double x = moves.x[k], y = moves.y[k], z = moves.z[k];
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+double
+shareOfLonger(double longest, const SoaBuffer& moves)
+{
+  std::size_t longer = 0;
+  for (std::size_t k = 0; k < moves.size(); ++k)
+    longer += length(moves, k) > longest;
+  return moves.size() > 0 ? static_cast<double>(longer) / static_cast<double>(moves.size()) : 0.0;
+}
+
+/** Normalised frame; infinity = no limit. */
+double
+longestMove(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, const SoaBuffer& moves)
+{
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  if (wanted.max_move > 0.0)
+    return frame.lengthToLocal(wanted.max_move);
+  const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.support_radius == 0.0;
+  if (!estimated || moves.size() < kFewestForNoise)
+    return kNoLimit;
+  const double limit = kNoises * noise;
+  return noise > kClean * spacing && shareOfLonger(limit, moves) > kUneven ? kNoLimit : limit;
+}
+
+/** \return how many moves were cut to `longest` */
+std::size_t
+cutMoves(double longest, SoaBuffer& moves)
+{
+  std::size_t limited = 0;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    const double distance = length(moves, k);
+    if (!(distance > longest))
+      continue;
+    const double share = longest / distance * (1.0 - 1e-6); // rounding must not pass the limit
+    moves.x[k] = static_cast<float>(moves.x[k] * share);
+    moves.y[k] = static_cast<float>(moves.y[k] * share);
+    moves.z[k] = static_cast<float>(moves.z[k] * share);
+    ++limited;
+  }
+  return limited;
+}
+
+ParameterOrigin
+originOf(const DenoiseParameters& wanted, double limit)
+{
+  if (wanted.max_move > 0.0)
+    return {"max_move", limit, "user", ""};
+  if (std::isinf(limit))
+    return {"max_move", limit, "default",
+            "no limit where the radius is given, in the paper's recursion, and where noise is uneven or cannot be told"};
+  return {"max_move", limit, "estimated", "6 x noise" + strengthNote(wanted.strength)};
+}
+
+} // namespace
+
+void
+limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, SoaBuffer& moves, DenoiseResult& result)
+{
+  const double longest = longestMove(wanted, noise, spacing, frame, moves);
+  result.limited_points = cutMoves(longest, moves);
+  result.max_move = frame.lengthToWorld(longest);
+  result.parameters.push_back(originOf(wanted, result.max_move));
+}
+
+} // namespace pcl_gpf

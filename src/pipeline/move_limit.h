@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "packed_cloud.h"
+
+namespace pcl_gpf {
+
+/** Limits how far each point moves: `max_move` where it is set, else 6 times the noise; none where the radius is given, in the paper's
+ * recursion, and where the noise is uneven or cannot be told. Notes the limit and how many points it cut in `result`.
+ * \param[in] noise normalised frame, times the strength
+ * \param[in] spacing normalised frame
+ */
+void
+limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, SoaBuffer& moves, DenoiseResult& result);
+
+} // namespace pcl_gpf

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scale_parameters.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace pcl_gpf {
+
+namespace {
+
+/** Rounds and angle of the bilateral normal filter at the fine scale, at most. */
+constexpr unsigned kFineRounds = 3;
+constexpr double kFineAngle = 25.0;
+
+} // namespace
+
+DenoiseParameters
+parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,
+             DenoiseResult& result)
+{
+  for (ParameterOrigin& origin : estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale)) {
+    origin.value = frame.lengthToWorld(origin.value);
+    origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
+    if (origin.reason.find("noise") != std::string::npos)
+      origin.reason += strengthNote(parameters.strength);
+    result.parameters.push_back(std::move(origin));
+  }
+  if (filter_scale == FilterScale::Fine) { // further rounds would turn small bosses into slopes
+    parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
+    parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
+  }
+  return parameters;
+}
+
+std::string
+strengthNote(double strength)
+{
+  if (strength == 1.0)
+    return {};
+  char text[32]; // as few digits as tell the number, whatever the locale
+  return " x strength " + std::string(text, std::to_chars(text, text + sizeof text, strength).ptr);
+}
+
+} // namespace pcl_gpf

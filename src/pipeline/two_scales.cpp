@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "two_scales.h"
+
+namespace pcl_gpf {
+
+bool
+filtersTwoScales(const DenoiseParameters& p)
+{
+  const bool estimated = p.normals.radius == 0.0 && p.bilateral.radius == 0.0 && p.bilateral.neighbors == 0 && p.gpf.support_radius == 0.0;
+  return p.two_scales && estimated && !runsInDouble(p.gpf) && p.gpf.sample_ratio == 1.0 && p.gpf.repulsion_weight == 0.0;
+}
+
+std::vector<std::uint32_t>
+lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, const FilteredCloud& coarse)
+{
+  const PointsView points = packed.index->sorted();
+  SoaBuffer positions(points.size);
+  for (std::size_t k = 0; k < points.size; ++k) {
+    positions.x[k] = points.x[k] + coarse.displacements.x[k];
+    positions.y[k] = points.y[k] + coarse.displacements.y[k];
+    positions.z[k] = points.z[k] + coarse.displacements.z[k];
+  }
+  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, positions.view(), coarse.normals.view());
+  std::vector<std::uint32_t> places;
+  for (std::size_t k = 0; k < fine.size(); ++k)
+    if (fine[k] != 0)
+      places.push_back(static_cast<std::uint32_t>(k));
+  return places;
+}
+
+void
+replaceAt(const std::vector<std::uint32_t>& places, const FilteredCloud& fine, FilteredCloud& whole)
+{
+  const auto copy = [](const SoaBuffer& from, std::size_t s, SoaBuffer& to, std::size_t k) {
+    to.x[k] = from.x[s];
+    to.y[k] = from.y[s];
+    to.z[k] = from.z[s];
+  };
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    copy(fine.displacements, s, whole.displacements, places[s]);
+    copy(fine.normals, s, whole.normals, places[s]);
+    whole.isolated[places[s]] = fine.isolated[s];
+  }
+}
+
+} // namespace pcl_gpf
