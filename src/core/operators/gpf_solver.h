@@ -68,8 +68,11 @@ public:
   releaseNeighborhoods() override;
 
 private:
-  struct DataSums;
-  struct RepulsionSums;
+  struct DataSums; // gpf_move.cpp
+  struct RepulsionSums {
+    AlignedArray<Real> weight;
+    SortedVectors<Real> push;
+  };
   struct Step {
     Real x = 0, y = 0, z = 0;
   };
