@@ -57,7 +57,11 @@ public:
   std::vector<std::uint32_t> mean_of; ///< relative to this task's first datum
 
 private:
-  double radiusSq(std::size_t i) const { return radius_.per_point_sq ? radius_.per_point_sq[i] : radius_.radius * radius_.radius; }
+  double
+  radiusSq(std::size_t i) const
+  {
+    return radius_.per_point_sq ? radius_.per_point_sq[i] : radius_.radius * radius_.radius;
+  }
 
   /** Points within the radius of point i, or some number that asks for the largest groups. */
   std::size_t
@@ -151,7 +155,8 @@ private:
     Datum datum;
     datum.weight = mean.count;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      datum.position[axis] = alone ? axes[axis][mean.first] : static_cast<float>(mean.position[axis] / static_cast<double>(mean.count));
+      datum.position[axis] =
+          alone ? axes[axis][mean.first] : static_cast<float>(mean.position[axis] / static_cast<double>(mean.count));
       datum.normal[axis] = static_cast<float>(n[axis] / length);
     }
     return datum;
@@ -183,8 +188,8 @@ write(const Merger::Datum& datum, std::size_t to, MergedPoints& merged)
 } // namespace
 
 MergedPoints
-mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above, bool want_mean_of,
-            std::size_t threads)
+mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above,
+            bool want_mean_of, std::size_t threads)
 {
   MergedPoints merged;
   if (merge_above == 0 || points.size() <= merge_above)

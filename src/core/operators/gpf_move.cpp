@@ -121,7 +121,8 @@ GPFSolver<Real>::isIsolated(std::size_t m, double weight) const
 /** Eq. 10 for one sample: the mean pull of the data, and the mean push of the other samples times mu. */
 template <typename Real>
 typename GPFSolver<Real>::Step
-GPFSolver<Real>::stepOf(std::size_t m, const DataSums& data, std::size_t place, const RepulsionSums& repulsion, double mu) const
+GPFSolver<Real>::stepOf(std::size_t m, const DataSums& data, std::size_t place, const RepulsionSums& repulsion,
+                        double mu) const
 {
   Step step;
   if (data.weight[place] > Real(0)) {
@@ -149,7 +150,8 @@ GPFSolver<Real>::stepOf(std::size_t m, const DataSums& data, std::size_t place, 
 /** Moves the samples [begin, end), whose sums are in `data`. */
 template <typename Real>
 void
-GPFSolver<Real>::moveBlock(std::size_t begin, std::size_t end, const DataSums& data, const RepulsionSums& repulsion, MoveSums& sum)
+GPFSolver<Real>::moveBlock(std::size_t begin, std::size_t end, const DataSums& data, const RepulsionSums& repulsion,
+                           MoveSums& sum)
 {
   SortedVectors<Real>& samples = cloud_.samples();
   const double mu = repulsion.weight.empty() ? 0.0 : repulsionWeight();
@@ -172,7 +174,8 @@ GPFSolver<Real>::moveBlock(std::size_t begin, std::size_t end, const DataSums& d
   }
 }
 
-/** Sums over the data and moves the samples, block by block: their data stand still, and the push of other samples is known. */
+/** Sums over the data and moves the samples, block by block: their data stand still, and the push of other samples is
+ * known. */
 template <typename Real>
 IterationStats
 GPFSolver<Real>::move(const RepulsionSums& repulsion)

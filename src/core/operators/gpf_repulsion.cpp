@@ -37,9 +37,11 @@ GPFSolver<Real>::evaluateRepulsion()
   AlignedArray<Real> sample_density;
   if (parameters.density_weights) {
     sample_density = AlignedArray<Real>(cloud_.samples().size() + kQueryBlock);
-    gaussianSums(cloud_.samples().vectors(), size(), cloud_.samples().vectors(), near, h, 4.0, sample_density); // w_m; theta(r) = exp(-4 r^2 / h^2)
+    // w_m; theta(r) = exp(-4 r^2 / h^2)
+    gaussianSums(cloud_.samples().vectors(), size(), cloud_.samples().vectors(), near, h, 4.0, sample_density);
   }
-  RepulsionSums sums{AlignedArray<Real>(cloud_.samples().size() + kQueryBlock), SortedVectors<Real>(cloud_.samples().size())};
+  RepulsionSums sums{AlignedArray<Real>(cloud_.samples().size() + kQueryBlock),
+                     SortedVectors<Real>(cloud_.samples().size())};
   kernels::Repulsion<Real> a;
   a.queries = a.data = cloud_.samples().vectors();
   a.data_normals = cloud_.sampleNormals().vectors();

@@ -45,7 +45,8 @@ GPFSolver<Real>::mergeData()
   if constexpr (std::is_same<Real, float>::value) {
     const kernels::Vectors<float> n = cloud_.pointNormals();
     if (!search_ && point_weight_.empty()) // merged points have no weights of their own
-      merged_ = mergePoints(cloud_.index(), {n.x, n.y, n.z, cloud_.pointCount()}, {data_radius_}, parameters.merge_above, false, threads_);
+      merged_ = mergePoints(cloud_.index(), {n.x, n.y, n.z, cloud_.pointCount()}, {data_radius_},
+                            parameters.merge_above, false, threads_);
   }
 }
 

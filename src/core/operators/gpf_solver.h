@@ -115,8 +115,8 @@ private:
   double
   repulsionWeight() const;
   void
-  gaussianSums(kernels::Vectors<Real> queries, std::size_t count, kernels::Vectors<Real> data, const Neighborhoods& neighborhoods,
-               double radius, double falloff, AlignedArray<Real>& out) const;
+  gaussianSums(kernels::Vectors<Real> queries, std::size_t count, kernels::Vectors<Real> data,
+               const Neighborhoods& neighborhoods, double radius, double falloff, AlignedArray<Real>& out) const;
   Neighborhoods
   neighborhoods(const ClusterTree& tree, PointsView data, PointsView queries, double reach) const;
   const Neighborhoods&

@@ -23,8 +23,8 @@ template <typename Real>
 void
 GPFSolver<Real>::evaluateDensities()
 {
-  const bool weighted =
-      parameters.density_weights || parameters.posterior_normalization || parameters.variance_update != VarianceUpdate::Fixed;
+  const bool weighted = parameters.density_weights || parameters.posterior_normalization ||
+                        parameters.variance_update != VarianceUpdate::Fixed;
   if (!weighted)
     return;
   point_weight_ = AlignedArray<Real>(cloud_.pointCount() + kQueryBlock, Real(1));
@@ -32,8 +32,8 @@ GPFSolver<Real>::evaluateDensities()
   if (!parameters.density_weights)
     return;
   const PointsView sorted = cloud_.index().sorted();
-  gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.points(), neighborhoods(cloud_.index().tree(), sorted, sorted, data_radius_), data_radius_, 1.0,
-               inverse_density_);
+  gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.points(),
+               neighborhoods(cloud_.index().tree(), sorted, sorted, data_radius_), data_radius_, 1.0, inverse_density_);
   parallelBlocks(cloud_.pointCount(), kGPFPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       inverse_density_[n] = Real(1) / std::max(Real(1), inverse_density_[n]);
@@ -46,9 +46,10 @@ void
 GPFSolver<Real>::evaluatePosteriorDenominators()
 {
   const double omega = parameters.outlier_weight;
-  const double c = std::pow(2.0 * kPi * variance_, 1.5) * omega / (1.0 - omega) * static_cast<double>(cloud_.samples().size()) /
-                   static_cast<double>(cloud_.pointCount());
-  gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.samples().vectors(), current(posterior_neighborhoods_, true, false), data_radius_,
+  const double c = std::pow(2.0 * kPi * variance_, 1.5) * omega / (1.0 - omega) *
+                   static_cast<double>(cloud_.samples().size()) / static_cast<double>(cloud_.pointCount());
+  gaussianSums(cloud_.points(), cloud_.pointCount(), cloud_.samples().vectors(),
+               current(posterior_neighborhoods_, true, false), data_radius_,
                data_radius_ * data_radius_ / (2.0 * variance_), point_weight_);
   parallelBlocks(cloud_.pointCount(), kGPFPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
@@ -61,7 +62,8 @@ GPFSolver<Real>::evaluatePosteriorDenominators()
 template <typename Real>
 void
 GPFSolver<Real>::gaussianSums(kernels::Vectors<Real> queries, std::size_t count, kernels::Vectors<Real> data,
-                              const Neighborhoods& neighborhoods, double radius, double falloff, AlignedArray<Real>& out) const
+                              const Neighborhoods& neighborhoods, double radius, double falloff,
+                              AlignedArray<Real>& out) const
 {
   kernels::GaussianSums<Real> a;
   a.queries = queries;
@@ -78,9 +80,11 @@ template void GPFSolver<float>::evaluateDensities();
 template void GPFSolver<double>::evaluateDensities();
 template void GPFSolver<float>::evaluatePosteriorDenominators();
 template void GPFSolver<double>::evaluatePosteriorDenominators();
-template void GPFSolver<float>::gaussianSums(kernels::Vectors<float>, std::size_t, kernels::Vectors<float>, const Neighborhoods&, double,
-                                             double, AlignedArray<float>&) const;
-template void GPFSolver<double>::gaussianSums(kernels::Vectors<double>, std::size_t, kernels::Vectors<double>, const Neighborhoods&, double,
-                                              double, AlignedArray<double>&) const;
+template void
+GPFSolver<float>::gaussianSums(kernels::Vectors<float>, std::size_t, kernels::Vectors<float>, const Neighborhoods&,
+                               double, double, AlignedArray<float>&) const;
+template void
+GPFSolver<double>::gaussianSums(kernels::Vectors<double>, std::size_t, kernels::Vectors<double>, const Neighborhoods&,
+                                double, double, AlignedArray<double>&) const;
 
 } // namespace pcl_gpf
