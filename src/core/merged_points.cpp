@@ -14,7 +14,6 @@ namespace {
 /** Points that share one choice of group, after the balls about its first, middle and last point; a power of two. */
 constexpr std::size_t kChunk = 1024;
 constexpr std::size_t kPointsPerTask = 8 * kChunk;
-constexpr std::size_t kLargestGroup = 256;
 /** Means as a share of the points above which merging is not worth its memory. */
 constexpr double kWorthwhile = 0.75;
 
@@ -37,12 +36,12 @@ public:
   void
   addChunk(std::size_t begin, std::size_t end)
   {
-    std::size_t held = merge_above_ * kLargestGroup;
+    std::size_t held = merge_above_ * MergedPoints::kLargestGroup;
     for (const std::size_t i : {begin, begin + (end - begin) / 2, end - 1})
       if (held > merge_above_)
         held = std::min(held, countBall(i));
     std::size_t group = 1;
-    for (; held > merge_above_ && group < kLargestGroup; held = (held + 1) / 2)
+    for (; held > merge_above_ && group < MergedPoints::kLargestGroup; held = (held + 1) / 2)
       group *= 2;
     for (std::size_t first = begin; first < end; first += group)
       addGroup(first, std::min(end, first + group));
@@ -72,7 +71,7 @@ private:
     runs_.clear();
     points_.tree().collectRuns({centre, centre}, std::sqrt(radius_sq), runs_);
     std::size_t held = 0;
-    for (std::size_t r = 0; r < runs_.size() && held <= merge_above_ * kLargestGroup; ++r) {
+    for (std::size_t r = 0; r < runs_.size() && held <= merge_above_ * MergedPoints::kLargestGroup; ++r) {
       const Run& run = runs_[r];
       for (std::size_t j = run.begin; j < run.end; ++j) {
         const float dx = p_.x[j] - centre[0], dy = p_.y[j] - centre[1], dz = p_.z[j] - centre[2];

@@ -27,6 +27,7 @@ struct BallRadius {
  * a point.
  */
 struct MergedPoints {
+  static constexpr std::size_t kLargestGroup = 256; ///< points of one mean
   /** Diagonal of the box about the points of a mean, as a share of the radius. */
   static constexpr double kWidestShare = 0.45;
   /** Least cosine of a point's normal with that of the first point of its mean. */

@@ -19,7 +19,8 @@ constexpr std::size_t kBlocksPerDescent = 16;
 /** Work beyond this many candidate pairs an iteration, and this many a point, is taken for a mistaken radius. */
 constexpr double kMostCandidatePairs = 2e10;
 constexpr double kManyCandidates = 20000.0;
-constexpr std::size_t kProbes = 256;
+/** Blocks that are counted before. */
+constexpr std::size_t kProbes = 64;
 /** Rough cost of a candidate pair on one thread, only used to put a figure into the refusal. */
 constexpr double kSecondsPerCandidate = 1e-9;
 
@@ -66,31 +67,41 @@ rounded(double value)
   return std::to_string(static_cast<long long>(std::ceil(value)));
 }
 
-/** Counts candidates and runs of a sample of blocks. \throws ExcessiveWork with the estimated pairs, time and memory */
 template <typename RadiusOfBlock>
-void
-refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
+CandidateCount
+countCandidates(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
 {
   const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
-  const std::size_t stride = std::max<std::size_t>(1, blocks / kProbes);
-  double candidates = 0.0, run_count = 0.0;
-  std::size_t probes = 0;
+  const std::size_t stride = (blocks + kProbes - 1) / kProbes;
+  CandidateCount count;
+  double probes = 0.0;
   std::vector<Run> runs;
-  for (std::size_t block = 0; block < blocks; block += stride, ++probes) {
+  for (std::size_t block = 0; block < blocks; block += stride) {
     runs.clear();
     const FloatBox box = blockBox(queries, block);
     tree.collectRuns(box, reach(radius(block), box), runs);
     for (const Run& run : runs)
-      candidates += static_cast<double>(run.end - run.begin);
-    run_count += static_cast<double>(runs.size());
+      count.data += static_cast<double>(run.end - run.begin);
+    count.runs += static_cast<double>(runs.size());
+    probes += 1.0;
   }
-  const double per_point = probes > 0 ? candidates / static_cast<double>(probes) : 0.0;
-  const double pairs = per_point * static_cast<double>(queries.size);
-  if (!(per_point > kManyCandidates && pairs > kMostCandidatePairs))
+  if (probes > 0.0)
+    count = {count.data / probes, count.runs / probes};
+  return count;
+}
+
+/** The last defence of operators whose radii are not known before they start. \throws ExcessiveWork */
+template <typename RadiusOfBlock>
+void
+refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
+{
+  const CandidateCount count = countCandidates(tree, queries, radius);
+  const double pairs = count.data * static_cast<double>(queries.size);
+  if (!(count.data > kManyCandidates && pairs > kMostCandidatePairs))
     return;
-  const double bytes = run_count / static_cast<double>(probes) * static_cast<double>(blocks) * sizeof(Run) +
-                       static_cast<double>(blocks) * sizeof(std::size_t);
-  throw ExcessiveWork("the radius holds about " + rounded(per_point) + " candidates a point, " + rounded(pairs / 1e9) +
+  const double bytes =
+      (count.runs * sizeof(Run) + sizeof(std::size_t)) * static_cast<double>(queries.size) / static_cast<double>(kQueryBlock);
+  throw ExcessiveWork("the radius holds about " + rounded(count.data) + " candidates a point, " + rounded(pairs / 1e9) +
                       " billion pairs: roughly " + rounded(pairs * kSecondsPerCandidate) + " s an iteration on one thread and " +
                       rounded(bytes / 1e6) + " MB of lists; choose a smaller radius");
 }
@@ -140,6 +151,12 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
 }
 
 } // namespace
+
+CandidateCount
+sampleCandidates(const ClusterTree& tree, PointsView queries, double radius)
+{
+  return countCandidates(tree, queries, [radius](std::size_t) { return radius; });
+}
 
 Neighborhoods
 findNeighborhoods(const ClusterTree& tree, PointsView queries, double radius, std::size_t threads)

@@ -3,6 +3,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "cloud_flags.h"
+#include "foresight.h"
 #include "move_limit.h"
 #include "outlier_repeat.h"
 #include "packed_cloud.h"
@@ -169,6 +170,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
   const bool two_scales = filtersTwoScales(parameters) && scale.spacing > 0.0;
   const FilterScale first = two_scales ? FilterScale::Coarse : FilterScale::Single;
   const DenoiseParameters p = parametersAt(first, parameters, scale, packed.frame, result);
+  refuseExcessiveStages(p, packed, samples.empty() ? packed.rows.size() : samples.size());
   FilteredCloud cloud = filterAt(first, p, samples, result.iterations);
   watch.lap();
   if (two_scales) {
@@ -226,6 +228,7 @@ denoiseNormals(const DenoiseInput& input, const DenoiseParameters& wanted, const
   CloudScale scale;
   Packed packed = prepare(input, parameters, false, scale, result);
   const DenoiseParameters p = parametersAt(FilterScale::Single, parameters, scale, packed.frame, result);
+  refuseExcessiveStages(p, packed, 0);
   makeNormals(input, p, FilterScale::Single, packed, progress, result);
   const float missing = std::numeric_limits<float>::quiet_NaN();
   const auto spread = [&](const AlignedArray<float>& from, std::vector<float>& to) {

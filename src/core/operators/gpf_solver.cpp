@@ -3,6 +3,7 @@
 
 #include "gpf_kernels.h"
 
+#include <pcl_gpf/core/analysis/work_estimate.h>
 #include <pcl_gpf/core/parallel.h>
 
 #include <algorithm>
@@ -33,6 +34,7 @@ GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
 , variance_(p.initial_variance > 0.0 ? p.initial_variance : 0.25 * p.support_radius * p.support_radius)
 {
   parameters = p;
+  refuseExcessiveWork(estimateWork(p, cloud_.index(), size(), static_cast<bool>(search_)));
   isolated_.assign(size(), 0);
   evaluateDensities();
   mergeData();
