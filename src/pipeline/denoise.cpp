@@ -48,6 +48,7 @@ estimateMissingNormals(const PlaneNormalsParameters& parameters, Packed& packed)
   std::vector<std::uint32_t> missing;
   missing.swap(packed.missing_normals); // frees them, too
   if (missing.size() == packed.rows.size()) {
+    std::vector<std::uint32_t>().swap(missing);
     estimatePlaneNormals(parameters, *packed.index, packed.normals.view());
     return;
   }
@@ -182,9 +183,9 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
     if (!places.empty())
       replaceAt(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
     watch.lap();
-    result.fine.assign(packed.rows.size(), 0);
+    cloud.fine.assign(packed.rows.size(), 0);
     for (const std::uint32_t k : places)
-      result.fine[k] = 1;
+      cloud.fine[k] = 1;
   }
   findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
   limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud.displacements, result);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "two_scales.h"
 
+#include <utility>
+
 namespace pcl_gpf {
 
 bool
@@ -20,7 +22,7 @@ lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, cons
     positions.y[k] = points.y[k] + coarse.displacements.y[k];
     positions.z[k] = points.z[k] + coarse.displacements.z[k];
   }
-  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, positions.view(), coarse.normals.view());
+  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, std::move(positions), coarse.normals);
   std::vector<std::uint32_t> places;
   for (std::size_t k = 0; k < fine.size(); ++k)
     if (fine[k] != 0)

@@ -90,5 +90,15 @@ TEST(Foresight, refusesPlaneFitsOverTheWholeCloud)
   expectRefusal([&](const StageProgress& progress) { denoiseNormals(cloud.input(), p, progress); }, "normals.radius");
 }
 
+TEST(Foresight, refusesMoreRowsThanIndicesTellApartBeforeReadingOne)
+{
+  const double none = 0.0;
+  DenoiseInput in;
+  in.x = in.y = in.z = &none;
+  in.size = std::size_t{1} << 32;
+  EXPECT_THROW(denoise(in, {}), ExcessiveWork);
+  EXPECT_THROW(denoiseNormals(in, {}), ExcessiveWork);
+}
+
 } // namespace
 } // namespace pcl_gpf::test

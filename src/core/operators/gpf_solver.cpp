@@ -37,7 +37,6 @@ GPFSolver<Real>::GPFSolver(const GPFParameters& p, const GPFInput& input)
   refuseExcessiveWork(estimateWork(p, cloud_.index(), size(), static_cast<bool>(search_)));
   isolated_.assign(size(), 0);
   evaluateDensities();
-  mergeData();
 }
 
 template <typename Real>
@@ -57,6 +56,8 @@ IterationStats
 GPFSolver<Real>::step()
 {
   const auto start = std::chrono::steady_clock::now();
+  if (iteration_ == 0) // not before: by now the caller may have freed its arrays
+    mergeData();
   if (parameters.posterior_normalization)
     evaluatePosteriorDenominators();                                // E-step, eq. 3
   const RepulsionSums repulsion = evaluateRepulsion();              // M-step, eq. 10, second sum

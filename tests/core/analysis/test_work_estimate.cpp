@@ -35,8 +35,9 @@ TEST(WorkEstimate, countsThePairsOfABallWithinAFactor)
     const double exact = pairsPerPoint(cloud, radius);
     const WorkEstimate work = estimateWork(planes, index);
     EXPECT_GT(work.data_per_point, 0.9 * exact) << radius; // a sample of the blocks
-    if (radius > 0.05)
+    if (radius > 0.05) {
       EXPECT_LT(work.data_per_point, 6.0 * exact) << radius; // boxes about blocks and clusters
+    }
     EXPECT_EQ(work.pairs, 4000.0 * work.data_per_point) << radius;
     EXPECT_FALSE(isExcessive(work)) << "small clouds may look at everything";
   }
