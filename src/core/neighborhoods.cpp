@@ -14,6 +14,9 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kBlocksPerTask = 256;
+constexpr std::size_t kTasksPerThread = 2;
+/** Room for runs, as a share of what a sample of blocks makes one expect. */
+constexpr double kExpectedShare = 1.25;
 /** Blocks that share one descent into the tree: together not much wider than a ball. */
 constexpr std::size_t kBlocksPerDescent = 16;
 /** Work beyond this many candidate pairs an iteration, and this many a point, is taken for a mistaken radius. */
@@ -57,7 +60,8 @@ reach(double radius, const FloatBox& box)
 {
   double farthest = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    farthest = std::max({farthest, std::abs(static_cast<double>(box.min[axis])), std::abs(static_cast<double>(box.max[axis]))});
+    farthest = std::max(
+        {farthest, std::abs(static_cast<double>(box.min[axis])), std::abs(static_cast<double>(box.max[axis]))});
   return static_cast<float>(radius * (1.0 + 1e-5) + 2e-7 * (farthest + radius));
 }
 
@@ -91,37 +95,38 @@ countCandidates(const ClusterTree& tree, PointsView queries, const RadiusOfBlock
 }
 
 /** The last defence of operators whose radii are not known before they start. \throws ExcessiveWork */
-template <typename RadiusOfBlock>
 void
-refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
+refuseExcessiveWork(const CandidateCount& count, PointsView queries)
 {
-  const CandidateCount count = countCandidates(tree, queries, radius);
   const double pairs = count.data * static_cast<double>(queries.size);
   if (!(count.data > kManyCandidates && pairs > kMostCandidatePairs))
     return;
-  const double bytes =
-      (count.runs * sizeof(Run) + sizeof(std::size_t)) * static_cast<double>(queries.size) / static_cast<double>(kQueryBlock);
+  const double bytes = (count.runs * sizeof(Run) + sizeof(std::size_t)) * static_cast<double>(queries.size) /
+                       static_cast<double>(kQueryBlock);
   throw ExcessiveWork("the radius holds about " + rounded(count.data) + " candidates a point, " + rounded(pairs / 1e9) +
-                      " billion pairs: roughly " + rounded(pairs * kSecondsPerCandidate) + " s an iteration on one thread and " +
-                      rounded(bytes / 1e6) + " MB of lists; choose a smaller radius");
+                      " billion pairs: roughly " + rounded(pairs * kSecondsPerCandidate) +
+                      " s an iteration on one thread and " + rounded(bytes / 1e6) +
+                      " MB of lists; choose a smaller radius");
 }
 
 template <typename RadiusOfBlock>
 Neighborhoods
 collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const RadiusOfBlock& radius)
 {
-  refuseExcessiveWork(tree, queries, radius);
+  const CandidateCount expected = countCandidates(tree, queries, radius);
+  refuseExcessiveWork(expected, queries);
   const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
-  const std::size_t tasks = (blocks + kBlocksPerTask - 1) / kBlocksPerTask;
-  std::vector<std::vector<Run>> runs(tasks);
   Neighborhoods result;
   result.query_count = queries.size;
   result.absent = tree.size();
   result.run_offsets.assign(blocks + 1, 0);
-  parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Run>& own = runs[begin / kBlocksPerTask];
+  result.runs.reserve(static_cast<std::size_t>(kExpectedShare * expected.runs * static_cast<double>(blocks)));
+  // Of some tasks at a time: those of all would double the memory.
+  std::vector<std::vector<Run>> runs(kTasksPerThread * threads);
+  const auto collectTask = [&](std::size_t begin, std::size_t end, std::vector<Run>& own) {
     std::vector<Run> one;
     std::vector<std::uint32_t> groups;
+    own.clear();
     for (std::size_t first = begin; first < end; first += kBlocksPerDescent) {
       const std::size_t last = std::min(end, first + kBlocksPerDescent);
       FloatBox boxes[kBlocksPerDescent];
@@ -139,14 +144,26 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
         result.run_offsets[block + 1] = one.size();
       }
     }
-  });
+  };
+  const std::size_t wave = runs.size() * kBlocksPerTask;
+  for (std::size_t first = 0; first < blocks; first += wave) {
+    const std::size_t count = std::min(wave, blocks - first);
+    parallelBlocks(count, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
+      collectTask(first + begin, first + end, runs[begin / kBlocksPerTask]);
+    });
+    const std::size_t tasks = (count + kBlocksPerTask - 1) / kBlocksPerTask;
+    std::size_t found = result.runs.size();
+    for (std::size_t task = 0; task < tasks; ++task)
+      found += runs[task].size();
+    if (found > result.runs.capacity()) // by proportion; insert() would double it
+      result.runs.reserve(found + static_cast<std::size_t>(kExpectedShare * static_cast<double>(found) *
+                                                           static_cast<double>(blocks - first - count) /
+                                                           static_cast<double>(first + count)));
+    for (std::size_t task = 0; task < tasks; ++task)
+      result.runs.insert(result.runs.end(), runs[task].begin(), runs[task].end());
+  }
   for (std::size_t block = 0; block < blocks; ++block)
     result.run_offsets[block + 1] += result.run_offsets[block];
-  result.runs.resize(result.run_offsets.back());
-  parallelBlocks(tasks, 1, threads, [&](std::size_t task, std::size_t) {
-    std::copy(runs[task].begin(), runs[task].end(), result.runs.begin() + static_cast<std::ptrdiff_t>(result.run_offsets[task * kBlocksPerTask]));
-    std::vector<Run>().swap(runs[task]);
-  });
   return result;
 }
 
