@@ -78,12 +78,17 @@ private:
   std::vector<Run> runs_;
 };
 
-/** Makes means of consecutive points, or only counts them: the same work twice, but no room for what may not be wanted. */
+/** Makes means of consecutive points, or only counts them: the work twice, but no room for what may not be wanted. */
 class Merger {
 public:
   /** \param[out] merged receives the means from `first_mean` on; null: they are counted */
-  Merger(const PointIndex& points, VectorsView normals, const BallRadius& radius, MergedPoints* merged, std::size_t first_mean)
-  : p_(points.sorted()), n_(normals), radius_(radius), merged_(merged), end_(first_mean)
+  Merger(const PointIndex& points, VectorsView normals, const BallRadius& radius, MergedPoints* merged,
+         std::size_t first_mean)
+  : p_(points.sorted())
+  , n_(normals)
+  , radius_(radius)
+  , merged_(merged)
+  , end_(first_mean)
   {}
 
   void
@@ -173,7 +178,8 @@ private:
     const double length = alone || !n_.x ? 1.0 : std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     merged_->weights[to] = mean.count;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      positions[axis][to] = alone ? from[axis][mean.first] : static_cast<float>(mean.position[axis] / static_cast<double>(mean.count));
+      positions[axis][to] =
+          alone ? from[axis][mean.first] : static_cast<float>(mean.position[axis] / static_cast<double>(mean.count));
       if (n_.x)
         normals[axis][to] = static_cast<float>(n[axis] / length);
     }
@@ -196,7 +202,8 @@ mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& rad
   MergedPoints merged;
   if (merge_above == 0 || points.size() <= merge_above)
     return merged;
-  const std::size_t chunks = (points.size() + kChunk - 1) / kChunk, tasks = (points.size() + kPointsPerTask - 1) / kPointsPerTask;
+  const std::size_t chunks = (points.size() + kChunk - 1) / kChunk,
+                    tasks = (points.size() + kPointsPerTask - 1) / kPointsPerTask;
   std::vector<std::uint16_t> groups(chunks);
   std::vector<std::size_t> offsets(tasks + 1, 0);
   const auto run = [&](std::size_t begin, std::size_t end, Merger merger) {

@@ -48,7 +48,8 @@ expectRefusal(const std::function<void(const StageProgress&)>& run, const std::s
     run([&](const std::string&, double) { return begun = true; });
     ADD_FAILURE() << parameter << " was not refused";
   } catch (const ExcessiveWork& error) {
-    for (const std::string& part : {parameter, std::string("billion pairs"), std::string(" s and "), std::string(" MB")})
+    for (const std::string& part :
+         {parameter, std::string("billion pairs"), std::string(" s and "), std::string(" MB")})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
   EXPECT_FALSE(begun) << parameter;
@@ -78,7 +79,8 @@ TEST(Foresight, refusesEveryRadiusThatExplodesBeforeTheFirstStage)
   DenoiseParameters oriented;
   oriented.bilateral.sign_invariant = false;
   oriented.bilateral.radius = kMistake;
-  expectRefusal([&](const StageProgress& progress) { denoiseNormals(cloud.input(), oriented, progress); }, "bilateral.radius");
+  expectRefusal([&](const StageProgress& progress) { denoiseNormals(cloud.input(), oriented, progress); },
+                "bilateral.radius");
 }
 
 TEST(Foresight, refusesPlaneFitsOverTheWholeCloud)

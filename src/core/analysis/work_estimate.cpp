@@ -19,7 +19,8 @@ namespace {
 /** Limits of isExcessive(). */
 constexpr double kMostData = 2000.0, kBearableSeconds = 30.0, kBearableSecondsPerPoint = 1e-4;
 /** Nanoseconds a datum that a kernel looks at, one thread, AVX-512, balls so large that nearly all data are in them. */
-constexpr double kMoments = 0.45, kBilateral = 0.9, kProjection = 0.9, kVariance = 0.5, kRepulsion = 1.1, kGaussian = 0.6;
+constexpr double kMoments = 0.45, kBilateral = 0.9, kProjection = 0.9, kVariance = 0.5, kRepulsion = 1.1,
+                 kGaussian = 0.6;
 /** Double instead of float. */
 constexpr double kDouble = 4.0;
 /** Directions of normals that a group of points to be merged has, which all leave a mean. */
@@ -113,7 +114,8 @@ estimateWork(const BilateralNormalsParameters& p, const PointIndex& points, bool
   WorkEstimate work = estimateOf(p.neighbors > 0 ? "bilateral.neighbors" : "bilateral.radius", points, ball);
   const double rounds = p.iterations;
   // The last round alone is for every point, where there are means.
-  addPass(static_cast<double>(points.size()) * ball.data * std::min(rounds, 1.0 + (rounds - 1.0) * ball.share), kBilateral, work);
+  addPass(static_cast<double>(points.size()) * ball.data * std::min(rounds, 1.0 + (rounds - 1.0) * ball.share),
+          kBilateral, work);
   return onThisMachine(std::move(work), p.number_of_threads);
 }
 
@@ -121,7 +123,8 @@ WorkEstimate
 estimateWork(const GPFParameters& p, const PointIndex& points, std::size_t samples, bool foreign_search)
 {
   const bool variance = p.variance_update != VarianceUpdate::Fixed;
-  const bool merged = !foreign_search && !runsInDouble(p) && !p.density_weights && !p.posterior_normalization && !variance;
+  const bool merged =
+      !foreign_search && !runsInDouble(p) && !p.density_weights && !p.posterior_normalization && !variance;
   const Ball ball = ballOf(points, 0.5 * p.support_radius, merged ? p.merge_above : 0, kDirections);
   WorkEstimate work = estimateOf("gpf.support_radius", points, ball);
   const double precision = runsInDouble(p) ? kDouble : 1.0, iterations = p.maximum_iterations;
@@ -150,9 +153,9 @@ void
 refuseExcessiveWork(const WorkEstimate& work)
 {
   if (isExcessive(work))
-    throw ExcessiveWork(work.parameter + " is so large that a point has about " + rounded(work.data_per_point) + " neighbours: " +
-                        rounded(work.pairs / 1e9) + " billion pairs, roughly " + rounded(work.seconds) + " s and " +
-                        rounded(work.bytes / 1e6) + " MB; choose a smaller radius");
+    throw ExcessiveWork(work.parameter + " is so large that a point has about " + rounded(work.data_per_point) +
+                        " neighbours: " + rounded(work.pairs / 1e9) + " billion pairs, roughly " +
+                        rounded(work.seconds) + " s and " + rounded(work.bytes / 1e6) + " MB; choose a smaller radius");
 }
 
 } // namespace pcl_gpf

@@ -13,10 +13,11 @@ namespace pcl_gpf {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/** Radius in which support is counted: most of the noise, at least a few neighbours, and no more than are needed to tell. */
+/** Radius in which support is counted: most of the noise, at least a few neighbours, and no more than are needed to
+ * tell. */
 constexpr double kBallNoises = 2.5, kLeastBallSpacings = 3.0, kMostBallSpacings = 8.0;
-/** Width of the surface component: the noise and what its estimate and the surface may be wrong by. Beside sharp edges the filter
- * itself moves points by up to a spacing. */
+/** Width of the surface component: the noise and what its estimate and the surface may be wrong by. Beside sharp edges
+ * the filter itself moves points by up to a spacing. */
 constexpr double kNoiseMargin = 1.25, kLeastWidthSpacings = 0.5;
 /** Standard deviations by which support must exceed what outliers leave there. */
 constexpr double kSignificance = 2.0;
@@ -27,7 +28,8 @@ struct Mixture {
   : ball(std::min(std::max(kBallNoises * p.noise, kLeastBallSpacings * p.spacing), kMostBallSpacings * p.spacing))
   , width(std::max(kNoiseMargin * p.noise, kLeastWidthSpacings * p.spacing))
   {
-    const double spread = std::max(p.data_radius, ball); // a filter narrower than the spacing does not make outliers of all points
+    // a filter narrower than the spacing does not make outliers of all points
+    const double spread = std::max(p.data_radius, ball);
     const double expected = kPi * spread * spread / (p.spacing * p.spacing);
     uniform = p.outlier_weight * expected / (4.0 / 3.0 * kPi * std::pow(spread, 3));
     const double background = uniform * 4.0 / 3.0 * kPi * std::pow(ball, 3);
@@ -45,7 +47,8 @@ struct Mixture {
     if (!(uniform > 0.0))
       return 0.0;
     const double scaled = move / width;
-    const double surface = std::max(0.0, support - threshold) / area * std::exp(-0.5 * scaled * scaled) / (width * std::sqrt(2.0 * kPi));
+    const double surface =
+        std::max(0.0, support - threshold) / area * std::exp(-0.5 * scaled * scaled) / (width * std::sqrt(2.0 * kPi));
     return uniform / (uniform + surface);
   }
 
@@ -105,7 +108,8 @@ inOrder(const SoaBuffer& from, const std::vector<std::uint32_t>& order)
 } // namespace
 
 std::vector<float>
-outlierProbabilities(const OutlierProbabilityParameters& p, const PointIndex& data, const SoaBuffer& filtered, const float* moves)
+outlierProbabilities(const OutlierProbabilityParameters& p, const PointIndex& data, const SoaBuffer& filtered,
+                     const float* moves)
 {
   checkRange("noise", p.noise, p.noise >= 0.0, ">= 0");
   checkRange("spacing", p.spacing, p.spacing > 0.0, "> 0");
@@ -120,8 +124,9 @@ outlierProbabilities(const OutlierProbabilityParameters& p, const PointIndex& da
   std::vector<std::uint32_t> order; // empty: as they are
   if (!followsCurve(filtered, data))
     order = hilbertOrder(filtered.view(), threads);
-  const AlignedArray<float> count = order.empty() ? countData(data, filtered, ball, threads, probabilities.data())
-                                                  : countData(data, inOrder(filtered, order), ball, threads, probabilities.data());
+  const AlignedArray<float> count =
+      order.empty() ? countData(data, filtered, ball, threads, probabilities.data())
+                    : countData(data, inOrder(filtered, order), ball, threads, probabilities.data());
   for (std::size_t k = 0; k < filtered.size(); ++k) {
     const std::size_t place = order.empty() ? k : order[k];
     const double move = moves[place];

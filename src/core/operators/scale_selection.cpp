@@ -30,8 +30,8 @@ constexpr float kOneFace = 0.97f;
 constexpr double kOutlier = 4.0;
 /** Mean square of heights, in squares of the noise, which noise alone does not reach. */
 constexpr double kMerged = 3.0;
-/** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p of a noisy estimate; between them by
- * measurement. */
+/** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p of a noisy estimate;
+ * between them by measurement. */
 constexpr double kVariances = 1.5;
 /** Standard deviation of a filtered point in units of noise / sqrt(data in the ball). */
 constexpr double kSpread = 1.15;
@@ -108,8 +108,8 @@ markEnd(SoaBuffer& positions)
 
 /** Means of heights, and of their squares, over the patches about the probes. Uses `positions` up. */
 void
-averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_normals, double noise, double radius, Probes& probes,
-               std::size_t threads)
+averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_normals, double noise, double radius,
+               Probes& probes, std::size_t threads)
 {
   AlignedArray<float> heights(positions.size() + kQueryBlock), squares(positions.size() + kQueryBlock);
   const auto longest_sq = static_cast<float>(kOutlier * kOutlier * noise * noise);
@@ -138,7 +138,8 @@ averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_norma
   sumFields(a, tree, radius, probes, threads);
 }
 
-/** Mean squared bias of the coarse surface about each probe, over the patches that lie on one face; 0 where there is none. */
+/** Mean squared bias of the coarse surface about each probe, over the patches that lie on one face; 0 where there is
+ * none. */
 std::vector<double>
 squaredBias(double noise_sq, double radius, Probes& probes, std::size_t threads)
 {
@@ -168,7 +169,8 @@ squaredBias(double noise_sq, double radius, Probes& probes, std::size_t threads)
 } // namespace
 
 std::vector<std::uint8_t>
-selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, SoaBuffer coarse_positions, const SoaBuffer& coarse_normals)
+selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, SoaBuffer coarse_positions,
+                const SoaBuffer& coarse_normals)
 {
   checkRange("noise", p.noise, p.noise >= 0.0, ">= 0");
   checkRange("spacing", p.spacing, p.spacing > 0.0, "> 0");
@@ -189,7 +191,8 @@ selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, Soa
   averageHeights(points.sorted(), std::move(coarse_positions), coarse_normals, p.noise, patch, probes, threads);
   const std::vector<float> in_patch(probes.weight.data(), probes.weight.data() + probes.size);
   const std::vector<double> bias_sq = squaredBias(p.noise * p.noise, hearing, probes, threads);
-  const double variance = kSpread * kSpread * p.noise * p.noise * patch * patch; // divided by the data in a ball of radius 1
+  // divided by the data in a ball of radius 1
+  const double variance = kSpread * kSpread * p.noise * p.noise * patch * patch;
   for (std::size_t k = 0; k < probes.size; ++k) {
     const double data = std::max(1.0f, in_patch[k]);
     const double coarse_risk = bias_sq[k] + kVariances * variance / (data * p.coarse_radius * p.coarse_radius);

@@ -61,7 +61,8 @@ TEST(WorkEstimate, followsWhatTheParametersAskFor)
   EXPECT_NEAR(estimateWork(p, index, cloud.size()).pairs, 2.0 * all.pairs, 1e-6 * all.pairs);
   GPFParameters paper = GPFParameters::paper();
   paper.support_radius = p.support_radius;
-  EXPECT_GT(estimateWork(paper, index, cloud.size()).nominal_seconds, 3.0 * all.nominal_seconds) << "double, and more sums";
+  EXPECT_GT(estimateWork(paper, index, cloud.size()).nominal_seconds, 3.0 * all.nominal_seconds)
+      << "double, and more sums";
 
   BilateralNormalsParameters bilateral;
   bilateral.radius = 0.25;

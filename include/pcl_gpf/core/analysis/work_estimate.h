@@ -19,24 +19,27 @@ struct WorkEstimate {
   double data_per_point = 0; ///< that a sum looks at, means of dense balls counted as one
   double pairs = 0;          ///< of all rounds or iterations
   double nominal_seconds = 0; ///< on one thread with AVX-512; decides, so that every machine refuses the same
-  double seconds = 0;        ///< on the threads and the instruction set that it would run on; rough, within a factor of 3
+  /** On the threads and the instruction set that it would run on; rough, within a factor of 3. */
+  double seconds = 0;
   double bytes = 0;          ///< working memory; rough
 };
 
-/** \brief Work of estimatePlaneNormals(). Cost of all three: 64 descents into the tree, below 0.1 s for a million points. */
+/** \brief Work of estimatePlaneNormals(). Cost of all three: 64 descents into the tree, below 0.1 s for a million
+ * points. */
 PCL_GPF_CORE_EXPORT WorkEstimate
 estimateWork(const PlaneNormalsParameters& parameters, const PointIndex& points);
 
-/** \brief Work of filterNormalsBilaterally(). \param[in] foreign_search a search of the caller's is used, without means */
+/** \brief Work of filterNormalsBilaterally(). \param[in] foreign_search a search of the caller's, without means */
 PCL_GPF_CORE_EXPORT WorkEstimate
 estimateWork(const BilateralNormalsParameters& parameters, const PointIndex& points, bool foreign_search = false);
 
 /** \brief Work of gpfRun(), all iterations. \param[in] samples M <= N */
 PCL_GPF_CORE_EXPORT WorkEstimate
-estimateWork(const GPFParameters& parameters, const PointIndex& points, std::size_t samples, bool foreign_search = false);
+estimateWork(const GPFParameters& parameters, const PointIndex& points, std::size_t samples,
+             bool foreign_search = false);
 
-/** \brief Whether the radius is taken for a mistake: a sum looks at more than 2,000 data a point and the work takes more than
- * 30 s and 0.1 ms a point, about ten times what the whole chain usually takes (docs/gpf.md). */
+/** \brief Whether the radius is taken for a mistake: a sum looks at more than 2,000 data a point and the work takes
+ * more than 30 s and 0.1 ms a point, about ten times what the whole chain usually takes (docs/gpf.md). */
 PCL_GPF_CORE_EXPORT bool
 isExcessive(const WorkEstimate& work);
 
