@@ -29,7 +29,8 @@ makeFaces()
     for (unsigned side = 0; side < 2; ++side) {
       const unsigned b = 1u << (axis + 1) % 3, c = 1u << (axis + 2) % 3, base = side << axis;
       Face& face = faces[2 * axis + side];
-      const std::array<unsigned, 4> around = {base, base | b, base | b | c, base | c}; // counterclockwise seen along -axis
+      // counterclockwise seen along -axis
+      const std::array<unsigned, 4> around = {base, base | b, base | b | c, base | c};
       for (std::size_t k = 0; k < 4; ++k)
         face.corners[k] = static_cast<std::uint8_t>(around[side == 1 ? k : 3 - k]);
       for (std::size_t k = 0; k < 4; ++k)
@@ -57,8 +58,8 @@ facesOfEdge(unsigned edge)
   return mask;
 }
 
-/** Adds the face's segments as next[edge] = edge. Round the face, a segment begins where the sign turns negative and ends where it turns
- * positive: the positive side is then on the left of the polygon. */
+/** Adds the face's segments as next[edge] = edge. Round the face, a segment begins where the sign turns negative and
+ * ends where it turns positive: the positive side is then on the left of the polygon. */
 void
 linkFace(const Face& face, const float* values, unsigned signs, std::array<std::uint8_t, CellPolygons::kEdges>& next)
 {

@@ -9,8 +9,8 @@ namespace pcl_gpf {
 
 /** \brief Polygons of a surface in one cell of a lattice.
  *
- * Corner c of a cell lies at x = c & 1, y = c >> 1 & 1, z = c >> 2 & 1. Edge 4 a + k runs along axis a from the k-th of the corners that
- * have 0 on that axis.
+ * Corner c of a cell lies at x = c & 1, y = c >> 1 & 1, z = c >> 2 & 1. Edge 4 a + k runs along axis a from the k-th of
+ * the corners that have 0 on that axis.
  */
 struct CellPolygons {
   static constexpr std::size_t kEdges = 12;
@@ -41,12 +41,13 @@ edgeAxis(unsigned edge)
 unsigned
 signMask(const float* values);
 
-/** \brief Polygons of the surface between corners with values > 0 and the others. \param[in] values of the 8 corners, finite */
+/** \brief Polygons of the surface between corners with values > 0 and the others. \param[in] values of the 8 corners,
+ * finite */
 CellPolygons
 traceCell(const float* values);
 
-/** \brief Vertex of a polygon from which all diagonals stay inside the cell; `size` when there is none. A diagonal in a face of the cell
- * might be an edge of the neighbour, too.
+/** \brief Vertex of a polygon from which all diagonals stay inside the cell; `size` when there is none. A diagonal in a
+ * face of the cell might be an edge of the neighbour, too.
  * \param[in] edges of the polygon's vertices */
 std::size_t
 fanApex(const std::uint8_t* edges, std::size_t size);

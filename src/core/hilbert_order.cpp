@@ -3,6 +3,8 @@
 #include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/parallel.h>
 
+#include "sorted_points.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -118,6 +120,7 @@ curveBox(PointsView points)
 std::vector<std::uint32_t>
 hilbertOrder(PointsView points, std::size_t threads)
 {
+  checkPointCount(points.size);
   std::vector<std::uint32_t> order(points.size);
   if (points.size == 0)
     return order;

@@ -14,7 +14,6 @@ namespace {
 /** Points that share one choice of group, after the balls about its first, middle and last point; a power of two. */
 constexpr std::size_t kChunk = 1024;
 constexpr std::size_t kPointsPerTask = 8 * kChunk;
-constexpr std::size_t kLargestGroup = 256;
 /** Means as a share of the points above which merging is not worth its memory. */
 constexpr double kWorthwhile = 0.75;
 
@@ -26,58 +25,83 @@ struct Mean {
   float count = 0.0f;
 };
 
-/** Means of consecutive points, found by one task. */
-class Merger {
+double
+radiusSqOf(const BallRadius& radius, std::size_t i)
+{
+  return radius.per_point_sq ? radius.per_point_sq[i] : radius.radius * radius.radius;
+}
+
+/** Chooses how many points of a chunk make a group. */
+class GroupChoice {
 public:
-  Merger(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above)
-  : points_(points), p_(points.sorted()), n_(normals), radius_(radius), merge_above_(merge_above)
+  GroupChoice(const PointIndex& points, const BallRadius& radius, std::size_t merge_above)
+  : points_(points), radius_(radius), merge_above_(merge_above)
   {}
 
-  /** Merges [begin, end), a chunk that begins at a multiple of kChunk. */
-  void
-  addChunk(std::size_t begin, std::size_t end)
+  std::size_t
+  ofChunk(std::size_t begin, std::size_t end)
   {
-    std::size_t held = merge_above_ * kLargestGroup;
+    std::size_t held = merge_above_ * MergedPoints::kLargestGroup;
     for (const std::size_t i : {begin, begin + (end - begin) / 2, end - 1})
       if (held > merge_above_)
         held = std::min(held, countBall(i));
     std::size_t group = 1;
-    for (; held > merge_above_ && group < kLargestGroup; held = (held + 1) / 2)
+    for (; held > merge_above_ && group < MergedPoints::kLargestGroup; held = (held + 1) / 2)
       group *= 2;
-    for (std::size_t first = begin; first < end; first += group)
-      addGroup(first, std::min(end, first + group));
+    return group;
   }
 
-  /** What is left of a mean. */
-  struct Datum {
-    std::array<float, 3> position, normal;
-    float weight;
-  };
-  std::vector<Datum> data;
-  std::vector<std::uint32_t> mean_of; ///< relative to this task's first datum
-
 private:
-  double radiusSq(std::size_t i) const { return radius_.per_point_sq ? radius_.per_point_sq[i] : radius_.radius * radius_.radius; }
-
   /** Points within the radius of point i, or some number that asks for the largest groups. */
   std::size_t
   countBall(std::size_t i)
   {
-    const std::array<float, 3> centre = {p_.x[i], p_.y[i], p_.z[i]};
-    const auto radius_sq = static_cast<float>(radiusSq(i));
+    const PointsView p = points_.sorted();
+    const std::array<float, 3> centre = {p.x[i], p.y[i], p.z[i]};
+    const auto radius_sq = static_cast<float>(radiusSqOf(radius_, i));
     runs_.clear();
     points_.tree().collectRuns({centre, centre}, std::sqrt(radius_sq), runs_);
     std::size_t held = 0;
-    for (std::size_t r = 0; r < runs_.size() && held <= merge_above_ * kLargestGroup; ++r) {
+    for (std::size_t r = 0; r < runs_.size() && held <= merge_above_ * MergedPoints::kLargestGroup; ++r) {
       const Run& run = runs_[r];
       for (std::size_t j = run.begin; j < run.end; ++j) {
-        const float dx = p_.x[j] - centre[0], dy = p_.y[j] - centre[1], dz = p_.z[j] - centre[2];
+        const float dx = p.x[j] - centre[0], dy = p.y[j] - centre[1], dz = p.z[j] - centre[2];
         held += dx * dx + dy * dy + dz * dz < radius_sq;
       }
     }
     return held;
   }
 
+  const PointIndex& points_;
+  BallRadius radius_;
+  std::size_t merge_above_;
+  std::vector<Run> runs_;
+};
+
+/** Makes means of consecutive points, or only counts them: the work twice, but no room for what may not be wanted. */
+class Merger {
+public:
+  /** \param[out] merged receives the means from `first_mean` on; null: they are counted */
+  Merger(const PointIndex& points, VectorsView normals, const BallRadius& radius, MergedPoints* merged,
+         std::size_t first_mean)
+  : p_(points.sorted())
+  , n_(normals)
+  , radius_(radius)
+  , merged_(merged)
+  , end_(first_mean)
+  {}
+
+  void
+  addChunk(std::size_t begin, std::size_t end, std::size_t group)
+  {
+    for (std::size_t first = begin; first < end; first += group)
+      addGroup(first, std::min(end, first + group));
+  }
+
+  /** Behind the last mean. */
+  std::size_t end() const { return end_; }
+
+private:
   /** Halves a group until it is small against the radius. */
   void
   addGroup(std::size_t begin, std::size_t end)
@@ -91,8 +115,9 @@ private:
     means_.clear();
     for (std::size_t i = begin; i < end; ++i)
       addPoint(i);
-    for (const Mean& mean : means_)
-      data.push_back(datumOf(mean));
+    for (std::size_t m = 0; merged_ && m < means_.size(); ++m)
+      write(means_[m], end_ + m);
+    end_ += means_.size();
   }
 
   bool
@@ -105,9 +130,9 @@ private:
       const double extent = static_cast<double>(*range.second) - static_cast<double>(*range.first);
       diagonal_sq += extent * extent;
     }
-    double radius_sq = radiusSq(begin);
+    double radius_sq = radiusSqOf(radius_, begin);
     for (std::size_t i = begin + 1; radius_.per_point_sq && i < end; ++i)
-      radius_sq = std::min(radius_sq, radiusSq(i));
+      radius_sq = std::min(radius_sq, radiusSqOf(radius_, i));
     return diagonal_sq > MergedPoints::kWidestShare * MergedPoints::kWidestShare * radius_sq;
   }
 
@@ -137,67 +162,63 @@ private:
       mean.normal[axis] += std::copysign(1.0, cosine) * static_cast<double>(normal[axis]);
     }
     mean.count += 1.0f;
-    mean_of.push_back(static_cast<std::uint32_t>(data.size() + m));
+    if (merged_ && !merged_->mean_of.empty())
+      merged_->mean_of[i] = static_cast<std::uint32_t>(end_ + m);
   }
 
   /** A mean of one point is that point to the last bit. */
-  Datum
-  datumOf(const Mean& mean) const
+  void
+  write(const Mean& mean, std::size_t to)
   {
     const bool alone = mean.count == 1.0f;
-    const float* axes[3] = {p_.x, p_.y, p_.z};
+    const float* from[3] = {p_.x, p_.y, p_.z};
+    float* positions[3] = {merged_->positions.x.data(), merged_->positions.y.data(), merged_->positions.z.data()};
+    float* normals[3] = {merged_->normals.x.data(), merged_->normals.y.data(), merged_->normals.z.data()};
     const auto& n = mean.normal;
     const double length = alone || !n_.x ? 1.0 : std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    Datum datum;
-    datum.weight = mean.count;
+    merged_->weights[to] = mean.count;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      datum.position[axis] = alone ? axes[axis][mean.first] : static_cast<float>(mean.position[axis] / static_cast<double>(mean.count));
-      datum.normal[axis] = static_cast<float>(n[axis] / length);
+      positions[axis][to] =
+          alone ? from[axis][mean.first] : static_cast<float>(mean.position[axis] / static_cast<double>(mean.count));
+      if (n_.x)
+        normals[axis][to] = static_cast<float>(n[axis] / length);
     }
-    return datum;
   }
 
-  const PointIndex& points_;
   PointsView p_;
   VectorsView n_;
   BallRadius radius_;
-  std::size_t merge_above_;
-  std::vector<Run> runs_;
+  MergedPoints* merged_;
+  std::size_t end_;
   std::vector<Mean> means_; ///< of the group at hand
 };
-
-void
-write(const Merger::Datum& datum, std::size_t to, MergedPoints& merged)
-{
-  merged.weights[to] = datum.weight;
-  merged.positions.x[to] = datum.position[0];
-  merged.positions.y[to] = datum.position[1];
-  merged.positions.z[to] = datum.position[2];
-  if (merged.normals.size() == 0)
-    return;
-  merged.normals.x[to] = datum.normal[0];
-  merged.normals.y[to] = datum.normal[1];
-  merged.normals.z[to] = datum.normal[2];
-}
 
 } // namespace
 
 MergedPoints
-mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above, bool want_mean_of,
-            std::size_t threads)
+mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above,
+            bool want_mean_of, std::size_t threads)
 {
   MergedPoints merged;
   if (merge_above == 0 || points.size() <= merge_above)
     return merged;
-  const std::size_t tasks = (points.size() + kPointsPerTask - 1) / kPointsPerTask;
-  std::vector<Merger> mergers(tasks, Merger(points, normals, radius, merge_above));
-  parallelBlocks(points.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += kChunk)
-      mergers[begin / kPointsPerTask].addChunk(first, std::min(end, first + kChunk));
-  });
+  const std::size_t chunks = (points.size() + kChunk - 1) / kChunk,
+                    tasks = (points.size() + kPointsPerTask - 1) / kPointsPerTask;
+  std::vector<std::uint16_t> groups(chunks);
   std::vector<std::size_t> offsets(tasks + 1, 0);
+  const auto run = [&](std::size_t begin, std::size_t end, Merger merger) {
+    for (std::size_t first = begin; first < end; first += kChunk)
+      merger.addChunk(first, std::min(end, first + kChunk), groups[first / kChunk]);
+    return merger.end();
+  };
+  parallelBlocks(points.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    GroupChoice choice(points, radius, merge_above);
+    for (std::size_t first = begin; first < end; first += kChunk)
+      groups[first / kChunk] = static_cast<std::uint16_t>(choice.ofChunk(first, std::min(end, first + kChunk)));
+    offsets[begin / kPointsPerTask + 1] = run(begin, end, Merger(points, normals, radius, nullptr, 0));
+  });
   for (std::size_t task = 0; task < tasks; ++task)
-    offsets[task + 1] = offsets[task] + mergers[task].data.size();
+    offsets[task + 1] += offsets[task];
   if (static_cast<double>(offsets.back()) > kWorthwhile * static_cast<double>(points.size()))
     return merged;
   merged.positions = SortedVectors<float>(offsets.back(), kFarAway);
@@ -205,14 +226,8 @@ mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& rad
     merged.normals = SortedVectors<float>(offsets.back());
   merged.weights = AlignedArray<float>(offsets.back() + kQueryBlock);
   merged.mean_of.resize(want_mean_of ? points.size() : 0);
-  parallelBlocks(tasks, 1, threads, [&](std::size_t task, std::size_t) {
-    Merger& merger = mergers[task];
-    for (std::size_t m = 0; m < merger.data.size(); ++m)
-      write(merger.data[m], offsets[task] + m, merged);
-    for (std::size_t k = 0; want_mean_of && k < merger.mean_of.size(); ++k)
-      merged.mean_of[task * kPointsPerTask + k] = static_cast<std::uint32_t>(offsets[task] + merger.mean_of[k]);
-    std::vector<Merger::Datum>().swap(merger.data);
-    std::vector<std::uint32_t>().swap(merger.mean_of);
+  parallelBlocks(points.size(), kPointsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    run(begin, end, Merger(points, normals, radius, &merged, offsets[begin / kPointsPerTask]));
   });
   merged.tree.fit(merged.view(), threads);
   return merged;

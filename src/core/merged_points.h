@@ -20,14 +20,18 @@ struct BallRadius {
 
 /** \brief Means that stand for several points each in sums over balls that hold many.
  *
- * A mean is taken of 2, 4, 8, ... consecutive sorted points, so many that a ball still holds more than half of `merge_above`
- * of them, counted anew for every 1,024 points; no wider than kWidestShare of the radius; and only of points whose normals
- * deviate by no more than about 15 degrees. Where a ball holds no more than `merge_above` points every point is its own mean, to the
- * last bit. Does not depend on the number of threads. Memory: 28 bytes a mean and 4 a point.
+ * A mean is taken of 2, 4, 8, ... consecutive sorted points, so many that a ball still holds more than half of
+ * `merge_above` of them, counted anew for every 1,024 points; no wider than kWidestShare of the radius; and only of
+ * points whose normals deviate by no more than about 15 degrees. Where a ball holds no more than `merge_above` points
+ * every point is its own mean, to the last bit. Does not depend on the number of threads. Memory: 28 bytes a mean and 4
+ * a point.
  */
 struct MergedPoints {
-  static constexpr double kWidestShare = 0.45;     ///< diagonal of the box about the points of a mean, as a share of the radius
-  static constexpr float kSameDirection = 0.966f;  ///< least cosine of a point's normal with that of the first point of its mean
+  static constexpr std::size_t kLargestGroup = 256; ///< points of one mean
+  /** Diagonal of the box about the points of a mean, as a share of the radius. */
+  static constexpr double kWidestShare = 0.45;
+  /** Least cosine of a point's normal with that of the first point of its mean. */
+  static constexpr float kSameDirection = 0.966f;
 
   SortedVectors<float> positions;
   SortedVectors<float> normals;  ///< of unit length; empty when merged without
@@ -45,7 +49,7 @@ struct MergedPoints {
  * \param[in] merge_above a ball that holds more points is thinned out; 0 = never
  */
 MergedPoints
-mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above, bool want_mean_of,
-            std::size_t threads);
+mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& radius, unsigned merge_above,
+            bool want_mean_of, std::size_t threads);
 
 } // namespace pcl_gpf

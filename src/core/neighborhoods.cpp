@@ -14,12 +14,16 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kBlocksPerTask = 256;
+constexpr std::size_t kTasksPerThread = 2;
+/** Room for runs, as a share of what a sample of blocks makes one expect. */
+constexpr double kExpectedShare = 1.25;
 /** Blocks that share one descent into the tree: together not much wider than a ball. */
 constexpr std::size_t kBlocksPerDescent = 16;
 /** Work beyond this many candidate pairs an iteration, and this many a point, is taken for a mistaken radius. */
 constexpr double kMostCandidatePairs = 2e10;
 constexpr double kManyCandidates = 20000.0;
-constexpr std::size_t kProbes = 256;
+/** Blocks that are counted before. */
+constexpr std::size_t kProbes = 64;
 /** Rough cost of a candidate pair on one thread, only used to put a figure into the refusal. */
 constexpr double kSecondsPerCandidate = 1e-9;
 
@@ -56,7 +60,8 @@ reach(double radius, const FloatBox& box)
 {
   double farthest = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    farthest = std::max({farthest, std::abs(static_cast<double>(box.min[axis])), std::abs(static_cast<double>(box.max[axis]))});
+    farthest = std::max(
+        {farthest, std::abs(static_cast<double>(box.min[axis])), std::abs(static_cast<double>(box.max[axis]))});
   return static_cast<float>(radius * (1.0 + 1e-5) + 2e-7 * (farthest + radius));
 }
 
@@ -66,51 +71,62 @@ rounded(double value)
   return std::to_string(static_cast<long long>(std::ceil(value)));
 }
 
-/** Counts candidates and runs of a sample of blocks. \throws ExcessiveWork with the estimated pairs, time and memory */
 template <typename RadiusOfBlock>
-void
-refuseExcessiveWork(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
+CandidateCount
+countCandidates(const ClusterTree& tree, PointsView queries, const RadiusOfBlock& radius)
 {
   const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
-  const std::size_t stride = std::max<std::size_t>(1, blocks / kProbes);
-  double candidates = 0.0, run_count = 0.0;
-  std::size_t probes = 0;
+  const std::size_t stride = (blocks + kProbes - 1) / kProbes;
+  CandidateCount count;
+  double probes = 0.0;
   std::vector<Run> runs;
-  for (std::size_t block = 0; block < blocks; block += stride, ++probes) {
+  for (std::size_t block = 0; block < blocks; block += stride) {
     runs.clear();
     const FloatBox box = blockBox(queries, block);
     tree.collectRuns(box, reach(radius(block), box), runs);
     for (const Run& run : runs)
-      candidates += static_cast<double>(run.end - run.begin);
-    run_count += static_cast<double>(runs.size());
+      count.data += static_cast<double>(run.end - run.begin);
+    count.runs += static_cast<double>(runs.size());
+    probes += 1.0;
   }
-  const double per_point = probes > 0 ? candidates / static_cast<double>(probes) : 0.0;
-  const double pairs = per_point * static_cast<double>(queries.size);
-  if (!(per_point > kManyCandidates && pairs > kMostCandidatePairs))
+  if (probes > 0.0)
+    count = {count.data / probes, count.runs / probes};
+  return count;
+}
+
+/** The last defence of operators whose radii are not known before they start. \throws ExcessiveWork */
+void
+refuseExcessiveWork(const CandidateCount& count, PointsView queries)
+{
+  const double pairs = count.data * static_cast<double>(queries.size);
+  if (!(count.data > kManyCandidates && pairs > kMostCandidatePairs))
     return;
-  const double bytes = run_count / static_cast<double>(probes) * static_cast<double>(blocks) * sizeof(Run) +
-                       static_cast<double>(blocks) * sizeof(std::size_t);
-  throw ExcessiveWork("the radius holds about " + rounded(per_point) + " candidates a point, " + rounded(pairs / 1e9) +
-                      " billion pairs: roughly " + rounded(pairs * kSecondsPerCandidate) + " s an iteration on one thread and " +
-                      rounded(bytes / 1e6) + " MB of lists; choose a smaller radius");
+  const double bytes = (count.runs * sizeof(Run) + sizeof(std::size_t)) * static_cast<double>(queries.size) /
+                       static_cast<double>(kQueryBlock);
+  throw ExcessiveWork("the radius holds about " + rounded(count.data) + " candidates a point, " + rounded(pairs / 1e9) +
+                      " billion pairs: roughly " + rounded(pairs * kSecondsPerCandidate) +
+                      " s an iteration on one thread and " + rounded(bytes / 1e6) +
+                      " MB of lists; choose a smaller radius");
 }
 
 template <typename RadiusOfBlock>
 Neighborhoods
 collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const RadiusOfBlock& radius)
 {
-  refuseExcessiveWork(tree, queries, radius);
+  const CandidateCount expected = countCandidates(tree, queries, radius);
+  refuseExcessiveWork(expected, queries);
   const std::size_t blocks = (queries.size + kQueryBlock - 1) / kQueryBlock;
-  const std::size_t tasks = (blocks + kBlocksPerTask - 1) / kBlocksPerTask;
-  std::vector<std::vector<Run>> runs(tasks);
   Neighborhoods result;
   result.query_count = queries.size;
   result.absent = tree.size();
   result.run_offsets.assign(blocks + 1, 0);
-  parallelBlocks(blocks, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Run>& own = runs[begin / kBlocksPerTask];
+  result.runs.reserve(static_cast<std::size_t>(kExpectedShare * expected.runs * static_cast<double>(blocks)));
+  // Of some tasks at a time: those of all would double the memory.
+  std::vector<std::vector<Run>> runs(kTasksPerThread * threads);
+  const auto collectTask = [&](std::size_t begin, std::size_t end, std::vector<Run>& own) {
     std::vector<Run> one;
     std::vector<std::uint32_t> groups;
+    own.clear();
     for (std::size_t first = begin; first < end; first += kBlocksPerDescent) {
       const std::size_t last = std::min(end, first + kBlocksPerDescent);
       FloatBox boxes[kBlocksPerDescent];
@@ -128,18 +144,36 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
         result.run_offsets[block + 1] = one.size();
       }
     }
-  });
+  };
+  const std::size_t wave = runs.size() * kBlocksPerTask;
+  for (std::size_t first = 0; first < blocks; first += wave) {
+    const std::size_t count = std::min(wave, blocks - first);
+    parallelBlocks(count, kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
+      collectTask(first + begin, first + end, runs[begin / kBlocksPerTask]);
+    });
+    const std::size_t tasks = (count + kBlocksPerTask - 1) / kBlocksPerTask;
+    std::size_t found = result.runs.size();
+    for (std::size_t task = 0; task < tasks; ++task)
+      found += runs[task].size();
+    if (found > result.runs.capacity()) // by proportion; insert() would double it
+      result.runs.reserve(found + static_cast<std::size_t>(kExpectedShare * static_cast<double>(found) *
+                                                           static_cast<double>(blocks - first - count) /
+                                                           static_cast<double>(first + count)));
+    for (std::size_t task = 0; task < tasks; ++task)
+      result.runs.insert(result.runs.end(), runs[task].begin(), runs[task].end());
+  }
   for (std::size_t block = 0; block < blocks; ++block)
     result.run_offsets[block + 1] += result.run_offsets[block];
-  result.runs.resize(result.run_offsets.back());
-  parallelBlocks(tasks, 1, threads, [&](std::size_t task, std::size_t) {
-    std::copy(runs[task].begin(), runs[task].end(), result.runs.begin() + static_cast<std::ptrdiff_t>(result.run_offsets[task * kBlocksPerTask]));
-    std::vector<Run>().swap(runs[task]);
-  });
   return result;
 }
 
 } // namespace
+
+CandidateCount
+sampleCandidates(const ClusterTree& tree, PointsView queries, double radius)
+{
+  return countCandidates(tree, queries, [radius](std::size_t) { return radius; });
+}
 
 Neighborhoods
 findNeighborhoods(const ClusterTree& tree, PointsView queries, double radius, std::size_t threads)

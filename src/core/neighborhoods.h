@@ -32,6 +32,14 @@ struct Neighborhoods {
   bool foreign() const { return !lane_offsets.empty(); }
 };
 
+/** \brief Size of the candidate lists, means over a sample of blocks. */
+struct CandidateCount {
+  double data = 0; ///< a query
+  double runs = 0; ///< a block
+};
+CandidateCount
+sampleCandidates(const ClusterTree& tree, PointsView queries, double radius);
+
 /** \brief Runs of `tree` within `radius` of each block of sorted `queries`. \throws ExcessiveWork */
 Neighborhoods
 findNeighborhoods(const ClusterTree& tree, PointsView queries, double radius, std::size_t threads);

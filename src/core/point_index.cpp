@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/point_index.h>
 
@@ -7,22 +6,18 @@
 #include "sorted_points.h"
 
 #include <algorithm>
-#include <string>
 
 namespace pcl_gpf {
 
 namespace {
 
 constexpr std::size_t kPointsPerTask = 65536;
-/** Kernels index points with signed 32 bits and read up to a block beyond the end. */
-constexpr std::size_t kMostPoints = (std::size_t{1} << 31) - 1 - kQueryBlock;
 
 } // namespace
 
 PointIndex::PointIndex(PointsView points, unsigned number_of_threads)
 {
-  if (points.size > kMostPoints)
-    throw ExcessiveWork(std::to_string(points.size) + " points; the limit of one cloud is " + std::to_string(kMostPoints));
+  checkPointCount(points.size);
   const std::size_t threads = resolveThreads(number_of_threads);
   order_ = compactOrder(points, threads);
   positions_ = SoaBuffer(size() + kQueryBlock);

@@ -65,7 +65,8 @@ Polygonizer::numberVertices()
 {
   order_.resize(lattice_.brickCount());
   std::iota(order_.begin(), order_.end(), std::uint32_t{0});
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) { return lattice_.brick(a).key < lattice_.brick(b).key; });
+  std::sort(order_.begin(), order_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return lattice_.brick(a).key < lattice_.brick(b).key; });
   std::size_t count = 0;
   for (const std::uint32_t place : order_) {
     SparseLattice::Brick& brick = lattice_.brick(place);
@@ -127,9 +128,12 @@ Polygonizer::addCell(LatticePoint cell, CornerFinder& finder, TaskMesh& task) co
 }
 
 void
-Polygonizer::addPolygon(const std::array<std::uint32_t, CellPolygons::kEdges>& vertices, const std::uint8_t* edges, std::size_t size, TaskMesh& task) const
+Polygonizer::addPolygon(const std::array<std::uint32_t, CellPolygons::kEdges>& vertices, const std::uint8_t* edges,
+                        std::size_t size, TaskMesh& task) const
 {
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { task.triangles.insert(task.triangles.end(), {a, b, c}); };
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    task.triangles.insert(task.triangles.end(), {a, b, c});
+  };
   const std::size_t apex = fanApex(edges, size);
   if (apex < size) {
     for (std::size_t k = 1; k + 1 < size; ++k)

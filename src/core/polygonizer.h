@@ -11,7 +11,8 @@
 
 namespace pcl_gpf {
 
-/** \brief Makes the mesh of the cells that a SurfaceFollower found: vertices on the crossed edges, numbered brick by brick. */
+/** \brief Makes the mesh of the cells that a SurfaceFollower found: vertices on the crossed edges, numbered brick by
+ * brick. */
 class Polygonizer {
 public:
   Polygonizer(SurfaceFollower& follower, std::size_t threads)
@@ -38,8 +39,8 @@ private:
   void
   addCell(LatticePoint cell, CornerFinder& finder, TaskMesh& task) const;
   void
-  addPolygon(const std::array<std::uint32_t, CellPolygons::kEdges>& vertices, const std::uint8_t* edges, std::size_t size,
-             TaskMesh& task) const;
+  addPolygon(const std::array<std::uint32_t, CellPolygons::kEdges>& vertices, const std::uint8_t* edges,
+             std::size_t size, TaskMesh& task) const;
   void
   join(const std::vector<TaskMesh>& tasks);
 

@@ -3,10 +3,12 @@
 
 #include "kernels/kernels.h"
 
+#include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/soa_buffer.h>
 
 #include <cstdint>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -14,6 +16,17 @@ namespace pcl_gpf {
 
 /** Position of the padded data element that stands for "no neighbour": beyond any radius, its square still finite in float. */
 constexpr float kFarAway = 1e18f;
+
+/** Kernels index points with signed 32 bits and read up to a block beyond the end. */
+constexpr std::size_t kMostCloudPoints = (std::size_t{1} << 31) - 1 - kQueryBlock;
+
+/** \throws ExcessiveWork if a cloud has more points than indices can tell apart; before anything is read */
+inline void
+checkPointCount(std::size_t count)
+{
+  if (count > kMostCloudPoints)
+    throw ExcessiveWork(std::to_string(count) + " points; the limit of one cloud is " + std::to_string(kMostCloudPoints));
+}
 
 /** \brief Three padded arrays; positions have kFarAway behind their end. */
 template <typename Real>

@@ -107,7 +107,8 @@ CornerFinder::corners(LatticePoint cell)
   std::array<Corner, 8> result;
   for (unsigned c = 0; c < 8; ++c) {
     const LatticePoint corner = {cell.x + (c & 1u), cell.y + (c >> 1 & 1u), cell.z + (c >> 2 & 1u)};
-    const unsigned shift = static_cast<unsigned>((corner.x ^ cell.x) >> 2 != 0) | static_cast<unsigned>((corner.y ^ cell.y) >> 2 != 0) << 1 |
+    const unsigned shift = static_cast<unsigned>((corner.x ^ cell.x) >> 2 != 0) |
+                           static_cast<unsigned>((corner.y ^ cell.y) >> 2 != 0) << 1 |
                            static_cast<unsigned>((corner.z ^ cell.z) >> 2 != 0) << 2;
     result[c] = {brickAt(cell, shift), latticeKey(corner)};
   }

@@ -16,7 +16,8 @@ namespace {
 
 /** Corners evaluated in one call of the function. */
 constexpr std::size_t kBatch = std::size_t{1} << 20;
-/** What the mesh and its making take for a crossed cell: two triangles twice, a vertex with normal and gradient, the cell's key. */
+/** What the mesh and its making take for a crossed cell: two triangles twice, a vertex with normal and gradient, the
+ * cell's key. */
 constexpr std::size_t kMeshBytesPerCell = 120;
 constexpr std::size_t kBytesPerWaitingCell = 8 * (1 + 4); // its key and those of its new corners
 constexpr std::uint32_t kLast = (1u << LatticePoint::kBitsPerAxis) - 3;
@@ -45,7 +46,8 @@ SurfaceFollower::position(LatticePoint corner, unsigned axis, double share) cons
   const std::uint32_t coordinates[3] = {corner.x, corner.y, corner.z};
   std::array<float, 3> result{};
   for (unsigned a = 0; a < 3; ++a) {
-    const double steps = static_cast<double>(coordinates[a]) - static_cast<double>(LatticePoint::kOrigin) + (a == axis ? share : 0.0);
+    const double steps =
+        static_cast<double>(coordinates[a]) - static_cast<double>(LatticePoint::kOrigin) + (a == axis ? share : 0.0);
     result[a] = static_cast<float>(parameters_.origin[a] + steps * parameters_.cell_size);
   }
   return result;
@@ -60,7 +62,8 @@ SurfaceFollower::seedCells(PointsView seeds) const
     std::uint32_t cell[3] = {};
     bool inside = true;
     for (std::size_t a = 0; a < 3; ++a) {
-      const double steps = std::floor((axes[a][i] - parameters_.origin[a]) / parameters_.cell_size) + LatticePoint::kOrigin;
+      const double steps =
+          std::floor((axes[a][i] - parameters_.origin[a]) / parameters_.cell_size) + LatticePoint::kOrigin;
       inside = inside && onLattice(steps);
       cell[a] = inside ? static_cast<std::uint32_t>(steps) : 0;
     }
@@ -174,11 +177,13 @@ SurfaceFollower::crossCells(const std::vector<std::uint64_t>& cells, std::vector
 void
 SurfaceFollower::checkMemory(std::size_t waiting) const
 {
-  const double bytes = static_cast<double>(lattice_.memory()) +
-                       static_cast<double>((cells_.size() + waiting) * kMeshBytesPerCell + waiting * kBytesPerWaitingCell);
+  const double bytes =
+      static_cast<double>(lattice_.memory()) +
+      static_cast<double>((cells_.size() + waiting) * kMeshBytesPerCell + waiting * kBytesPerWaitingCell);
   if (bytes > static_cast<double>(parameters_.memory_limit))
-    throw ExcessiveWork("the surface takes more than the allowed " + gibibytes(static_cast<double>(parameters_.memory_limit)) + " (" +
-                        std::to_string(cells_.size()) + " cells so far); choose a lower resolution or allow more memory");
+    throw ExcessiveWork(
+        "the surface takes more than the allowed " + gibibytes(static_cast<double>(parameters_.memory_limit)) + " (" +
+        std::to_string(cells_.size()) + " cells so far); choose a lower resolution or allow more memory");
 }
 
 void

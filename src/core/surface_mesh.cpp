@@ -85,7 +85,8 @@ meshTopology(const SurfaceMesh& mesh)
   const std::vector<std::size_t> sizes = componentSizes(mesh, componentRoots(mesh));
   topology.components = sizes.size() - static_cast<std::size_t>(std::count(sizes.begin(), sizes.end(), std::size_t{0}));
   topology.euler_characteristic = static_cast<std::int64_t>(std::count(used.begin(), used.end(), std::uint8_t{1})) -
-                                  static_cast<std::int64_t>(topology.edges) + static_cast<std::int64_t>(mesh.triangleCount());
+                                  static_cast<std::int64_t>(topology.edges) +
+                                  static_cast<std::int64_t>(mesh.triangleCount());
   return topology;
 }
 
@@ -99,7 +100,8 @@ removeSmallComponents(SurfaceMesh& mesh, double share)
   const std::vector<std::size_t> sizes = componentSizes(mesh, roots);
   const double least = share * static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
   const auto isSmall = [&](std::size_t size) { return static_cast<double>(size) < least; };
-  const auto removed = std::count_if(sizes.begin(), sizes.end(), [&](std::size_t size) { return size > 0 && isSmall(size); });
+  const auto removed =
+      std::count_if(sizes.begin(), sizes.end(), [&](std::size_t size) { return size > 0 && isSmall(size); });
   if (removed == 0)
     return 0;
   std::vector<std::uint32_t> kept, place(mesh.vertexCount());

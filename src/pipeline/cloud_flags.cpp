@@ -63,7 +63,7 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
   if (p.flags.outliers)
     cloud.outlier = outlierProbabilities(
         {noiseOfMoves(scale.noise, moves), scale.spacing, data_radius, p.gpf.outlier_weight, p.number_of_threads}, *packed.index,
-        places.view(), moves.data());
+        places, moves.data());
   if (p.flags.sigma) {
     std::vector<float> weights(cloud.outlier.size());
     for (std::size_t k = 0; k < weights.size(); ++k)

@@ -3,6 +3,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "cloud_flags.h"
+#include "foresight.h"
 #include "move_limit.h"
 #include "outlier_repeat.h"
 #include "packed_cloud.h"
@@ -47,6 +48,7 @@ estimateMissingNormals(const PlaneNormalsParameters& parameters, Packed& packed)
   std::vector<std::uint32_t> missing;
   missing.swap(packed.missing_normals); // frees them, too
   if (missing.size() == packed.rows.size()) {
+    std::vector<std::uint32_t>().swap(missing);
     estimatePlaneNormals(parameters, *packed.index, packed.normals.view());
     return;
   }
@@ -169,6 +171,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
   const bool two_scales = filtersTwoScales(parameters) && scale.spacing > 0.0;
   const FilterScale first = two_scales ? FilterScale::Coarse : FilterScale::Single;
   const DenoiseParameters p = parametersAt(first, parameters, scale, packed.frame, result);
+  refuseExcessiveStages(p, packed, samples.empty() ? packed.rows.size() : samples.size());
   FilteredCloud cloud = filterAt(first, p, samples, result.iterations);
   watch.lap();
   if (two_scales) {
@@ -180,9 +183,9 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
     if (!places.empty())
       replaceAt(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
     watch.lap();
-    result.fine.assign(packed.rows.size(), 0);
+    cloud.fine.assign(packed.rows.size(), 0);
     for (const std::uint32_t k : places)
-      result.fine[k] = 1;
+      cloud.fine[k] = 1;
   }
   findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
   limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud.displacements, result);
@@ -226,6 +229,7 @@ denoiseNormals(const DenoiseInput& input, const DenoiseParameters& wanted, const
   CloudScale scale;
   Packed packed = prepare(input, parameters, false, scale, result);
   const DenoiseParameters p = parametersAt(FilterScale::Single, parameters, scale, packed.frame, result);
+  refuseExcessiveStages(p, packed, 0);
   makeNormals(input, p, FilterScale::Single, packed, progress, result);
   const float missing = std::numeric_limits<float>::quiet_NaN();
   const auto spread = [&](const AlignedArray<float>& from, std::vector<float>& to) {

@@ -59,6 +59,7 @@ finiteRows(const DenoiseInput& input, LocalFrame& frame)
   if (input.size > std::numeric_limits<std::uint32_t>::max())
     throw ExcessiveWork(std::to_string(input.size) + " rows; the limit of one cloud is 2^32 - 1");
   std::vector<std::uint32_t> rows;
+  rows.reserve(input.size);
   BoundingBox box;
   for (std::size_t i = 0; i < input.size; ++i)
     if (std::isfinite(input.x[i]) && std::isfinite(input.y[i]) && std::isfinite(input.z[i])) {
@@ -121,6 +122,7 @@ void
 packNormals(const DenoiseInput& input, Packed& packed)
 {
   packed.normals = SoaBuffer(packed.rows.size());
+  packed.missing_normals.reserve(input.normal_x ? 0 : packed.rows.size());
   for (std::size_t k = 0; k < packed.rows.size(); ++k) {
     const std::size_t row = packed.rows[k];
     const double x = input.normal_x ? input.normal_x[row] : 0.0, y = input.normal_x ? input.normal_y[row] : 0.0,
@@ -166,27 +168,30 @@ unpack(const DenoiseInput& input, Packed packed, FilteredCloud cloud, const std:
     });
   };
   // Place of each of the recursion's results in the output: samples are ascending already; all points follow the index.
-  const auto placeOf = [&](std::size_t k) { return samples.empty() ? packed.index->order()[k] : k; };
+  const std::vector<std::uint32_t> order = samples.empty() ? packed.index->order() : std::vector<std::uint32_t>();
+  packed.index.reset();
+  packed.normals = SoaBuffer();
+  const auto placeOf = [&](std::size_t k) { return order.empty() ? k : order[k]; };
   result.sample_indices.resize(count);
   forEach([&](std::size_t k) { result.sample_indices[placeOf(k)] = packed.rows[samples.empty() ? k : samples[k]]; });
-  const auto take = [&](const auto& values, auto& to) {
+  std::vector<std::uint32_t>().swap(packed.rows);
+  const auto take = [&](auto& values, auto& to) { // and gives their room to the next
     to.resize(count);
     forEach([&](std::size_t k) { to[placeOf(k)] = values[k]; });
+    values = {};
   };
   take(cloud.isolated, result.isolated);
-  const auto take_if_there = [&](const auto& values, auto& to) {
+  const auto take_if_there = [&](auto& values, auto& to) {
     if (!values.empty())
       take(values, to);
   };
   take_if_there(cloud.outlier, result.outlier);
   take_if_there(cloud.sigma, result.sigma);
   take_if_there(cloud.edge, result.edge);
-  if (!result.fine.empty())
-    take(std::vector<std::uint8_t>(result.fine), result.fine);
+  take_if_there(cloud.fine, result.fine);
   take(cloud.normals.x, result.normal_x);
   take(cloud.normals.y, result.normal_y);
   take(cloud.normals.z, result.normal_z);
-  cloud.normals = SoaBuffer();
 
   const auto move = [&](const double* start, AlignedArray<float>& moves, std::vector<double>& to) {
     to.resize(count);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "two_scales.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace pcl_gpf {
 
 bool
@@ -20,8 +23,9 @@ lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, cons
     positions.y[k] = points.y[k] + coarse.displacements.y[k];
     positions.z[k] = points.z[k] + coarse.displacements.z[k];
   }
-  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, positions.view(), coarse.normals.view());
+  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, std::move(positions), coarse.normals);
   std::vector<std::uint32_t> places;
+  places.reserve(static_cast<std::size_t>(std::count(fine.begin(), fine.end(), 1)));
   for (std::size_t k = 0; k < fine.size(); ++k)
     if (fine[k] != 0)
       places.push_back(static_cast<std::uint32_t>(k));

@@ -44,8 +44,9 @@ checkWork(const MLSUpsamplingParameters& p, std::size_t points, double extent)
   else if (p.method == MLSMethod::VoxelGridDilation)
     made *= grown * grown * grown;
   if (!(made <= kMostPoints))
-    throw ExcessiveWork("moving least squares may make up to " + std::to_string(made) + " points of " + std::to_string(points) +
-                        "; at most " + std::to_string(kMostPoints) + " are made: ask for fewer points, or a wider step or voxel");
+    throw ExcessiveWork("moving least squares may make up to " + std::to_string(made) + " points of " +
+                        std::to_string(points) + "; at most " + std::to_string(kMostPoints) +
+                        " are made: ask for fewer points, or a wider step or voxel");
   if (p.method == MLSMethod::VoxelGridDilation && !(extent / p.voxel_size + grown < kMostVoxelsASide))
     throw ExcessiveWork("the cloud is " + std::to_string(extent / p.voxel_size) +
                         " voxels wide, at most a million can be numbered; ask for larger voxels");
@@ -65,7 +66,8 @@ effectiveParameters(MLSUpsamplingParameters p, const pcl::PointCloud<pcl::PointX
   }
   const PointsView view = static_cast<const SoaBuffer&>(positions).view();
   if (!spansSurface(view))
-    throw UnsuitableData(std::to_string(points.size()) + " points that coincide or lie on one line, or fewer than 3, have no surface");
+    throw UnsuitableData(std::to_string(points.size()) +
+                         " points that coincide or lie on one line, or fewer than 3, have no surface");
   const double spacing = estimateSpacing(view, p.number_of_threads);
   const auto estimate = [spacing](double& length, double spacings) {
     if (length == 0.0)
@@ -132,7 +134,8 @@ sampleRandomly(const MLSUpsamplingParameters& p, const std::vector<pcl::MLSResul
   }
 }
 
-/** PCL's output in ascending order of its sources: threads deliver theirs in any order, but each point's own in one piece. */
+/** PCL's output in ascending order of its sources: threads deliver theirs in any order, but each point's own in one
+ * piece. */
 void
 takeSorted(const pcl::PointCloud<pcl::PointNormal>& output, const pcl::Indices& sources, MLSPoints& made)
 {

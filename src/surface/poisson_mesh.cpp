@@ -29,8 +29,8 @@ require(bool inside, const char* name, const char* range)
 }
 
 void
-reconstruct(const PoissonMeshParameters& p, PointsView points, NormalsView normals, pcl::PointCloud<pcl::PointNormal>& vertices,
-            std::vector<pcl::Vertices>& polygons)
+reconstruct(const PoissonMeshParameters& p, PointsView points, NormalsView normals,
+            pcl::PointCloud<pcl::PointNormal>& vertices, std::vector<pcl::Vertices>& polygons)
 {
   const pcl::PointCloud<pcl::PointNormal>::Ptr cloud(new pcl::PointCloud<pcl::PointNormal>);
   cloud->resize(points.size);
@@ -109,9 +109,11 @@ orientFaces(SurfaceMesh& mesh, const PointIndex& index, NormalsView normals)
   std::vector<std::uint32_t> found;
   const std::size_t stride = std::max<std::size_t>(1, mesh.vertexCount() / 4096);
   for (std::size_t i = 0; i < mesh.vertexCount(); i += stride) {
-    index.tree().nearest(index.sorted(), {mesh.vertices.x[i], mesh.vertices.y[i], mesh.vertices.z[i]}, 1, distances_sq, &found);
+    index.tree().nearest(index.sorted(), {mesh.vertices.x[i], mesh.vertices.y[i], mesh.vertices.z[i]}, 1, distances_sq,
+                         &found);
     const std::uint32_t source = index.order()[found.front()];
-    along += mesh.normals.x[i] * normals.x[source] + mesh.normals.y[i] * normals.y[source] + mesh.normals.z[i] * normals.z[source];
+    along += mesh.normals.x[i] * normals.x[source] + mesh.normals.y[i] * normals.y[source] +
+             mesh.normals.z[i] * normals.z[source];
   }
   if (along >= 0.0)
     return;
@@ -141,7 +143,8 @@ meshPoisson(const PoissonMeshParameters& parameters, PointsView points, NormalsV
   const PointIndex index(points, number_of_threads);
   const double spacing = estimateSpacing(index, number_of_threads);
   if (points.size < kFewestPoints || !(spacing > 0.0))
-    throw UnsuitableData(std::to_string(points.size) + " points" + (points.size < kFewestPoints ? "" : " in one place") + " make no surface");
+    throw UnsuitableData(std::to_string(points.size) + " points" +
+                         (points.size < kFewestPoints ? "" : " in one place") + " make no surface");
   pcl::PointCloud<pcl::PointNormal> vertices;
   std::vector<pcl::Vertices> polygons;
   reconstruct(parameters, points, normals, vertices, polygons);
@@ -160,7 +163,8 @@ meshPoisson(const PoissonMeshParameters& parameters, PointsView points, NormalsV
       for (const std::size_t corner : {std::size_t{0}, k - 1, k})
         mesh.triangles.push_back(static_cast<std::uint32_t>(polygon.vertices[corner]));
   if (parameters.trim > 0.0) {
-    const std::vector<std::uint8_t> near = nearPoints(mesh.vertices, index, parameters.trim * spacing, number_of_threads);
+    const std::vector<std::uint8_t> near =
+        nearPoints(mesh.vertices, index, parameters.trim * spacing, number_of_threads);
     for (std::size_t i = 0; i < kept.size(); ++i)
       kept[i] = kept[i] && near[i];
   }

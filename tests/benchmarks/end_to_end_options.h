@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "models.h"
-#include "option_values.h"
+#include "cloud_options.h"
 
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/pipeline/denoise.h>
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 /** \file
  * \brief Command line of the benchmark end_to_end.
@@ -28,20 +26,16 @@ Prints the median seconds of each stage, nanoseconds per pair of an input and a 
   --threads-compare  then, for each size, one thread against --threads, run in turn
 )";
 
-struct Options {
-  std::vector<std::size_t> sizes = {33490, 50629, 75053};
-  unsigned threads = 0;
-  unsigned repeat = 5;
-  std::string model = "block";
-  double noise = 1.0;
+struct Options : CloudOptions {
   std::string preset = "default";
   unsigned iterations = 0; ///< 0: the preset's
   int rounds = -1;         ///< of the bilateral filter; -1: the default
   double samples = 0.0;    ///< 0: the preset's
-  double neighbors = 0.0;  ///< 0: estimated lengths
   bool slope = false;
   bool threads_compare = false;
   bool csv = false;
+
+  Options() { sizes = {33490, 50629, 75053}; } // neighbors 0: estimated lengths
 };
 
 /** \return whether `name` is an option without a value */
@@ -60,25 +54,14 @@ setFlag(Options& o, const std::string& name)
 inline void
 setValue(Options& o, const std::string& name, const std::string& value)
 {
-  if (name == "--sizes")
-    o.sizes = sizes(value);
-  else if (name == "--threads")
-    o.threads = number<unsigned>(value);
-  else if (name == "--repeat")
-    o.repeat = std::max(1u, number<unsigned>(value));
-  else if (name == "--model") {
-    benchmark_models::makeModel(value, 0, 0.0); // refuses unknown names
-    o.model = value;
-  } else if (name == "--noise")
-    o.noise = number<double>(value);
-  else if (name == "--iterations")
+  if (setCloudValue(o, name, value, 1))
+    return;
+  if (name == "--iterations")
     o.iterations = number<unsigned>(value);
   else if (name == "--rounds")
     o.rounds = number<int>(value);
   else if (name == "--samples")
     o.samples = number<double>(value);
-  else if (name == "--neighbors")
-    o.neighbors = number<double>(value);
   else if (name == "--preset" && (value == "default" || value == "paper"))
     o.preset = value;
   else
@@ -89,14 +72,9 @@ inline Options
 parse(int argc, char** argv)
 {
   Options o;
-  for (int i = 1; i < argc; ++i) {
-    const std::string name = argv[i];
-    if (setFlag(o, name))
-      continue;
-    if (i + 1 == argc)
-      throw std::invalid_argument(name + " is unknown or lacks its value");
-    setValue(o, name, argv[++i]);
-  }
+  forEachOption(
+      argc, argv, [&](const std::string& name) { return setFlag(o, name); },
+      [&](const std::string& name, const std::string& value) { setValue(o, name, value); });
   if (o.slope && std::all_of(o.sizes.begin(), o.sizes.end(), [&](std::size_t size) { return size == o.sizes.front(); }))
     throw std::invalid_argument("--slope needs at least two different sizes");
   if (o.threads_compare && resolveThreads(o.threads) < 2)

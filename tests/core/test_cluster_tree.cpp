@@ -2,6 +2,8 @@
 #include "support/local_cloud.h"
 
 #include <pcl_gpf/core/cluster_tree.h>
+#include <pcl_gpf/core/errors.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/sampling.h>
 
 #include <gtest/gtest.h>
@@ -155,6 +157,16 @@ TEST(HilbertOrder, walksTheCellsOfACubeInUnitSteps)
   const auto order = hilbertOrder(grid.view(), 1);
   for (std::size_t i = 1; i < order.size(); ++i)
     EXPECT_NEAR(7 * test::distance(cells[order[i - 1]], cells[order[i]]), 1.0, 1e-9) << i;
+}
+
+TEST(PointIndex, refusesMorePointsThanIndicesTellApartBeforeReadingOne)
+{
+  const float none = 0.0f;
+  for (const std::size_t count : {std::size_t{1} << 31, (std::size_t{1} << 32) - 1, std::size_t{1} << 32, std::size_t{1} << 40}) {
+    const PointsView claimed{&none, &none, &none, count};
+    EXPECT_THROW(PointIndex index(claimed), ExcessiveWork) << count;
+    EXPECT_THROW(hilbertOrder(claimed, 1), ExcessiveWork) << count;
+  }
 }
 
 TEST(ClusterTree, runsCoverEveryPointWithinReachOfTheBox)

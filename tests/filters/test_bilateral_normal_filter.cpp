@@ -189,6 +189,18 @@ TEST(BilateralNormalFilterLaws, RigidMotionAndScaleCommute)
   }
 }
 
+TEST(BilateralNormalFilter, RadiusThatExplodesIsRefusedBeforeTheWork)
+{
+  BilateralNormalFilter<PointT> filter;
+  filter.setSignInvariant(false); // no means
+  filter.setIterations(10);
+  filter.setRadius(1000.0);
+  bool begun = false;
+  filter.setProgressCallback([&](double) { return begun = true; });
+  EXPECT_THROW(run(filter, toCloud<PointT>(cube(100000))), pcl::ComputeFailedException);
+  EXPECT_FALSE(begun);
+}
+
 TEST(BilateralNormalFilterLaws, PermutationCommutes)
 {
   const Cloud::Ptr cloud = toCloud<PointT>(cubeWithNoisyNormals(3000));

@@ -177,6 +177,17 @@ TEST(GPF, SettersAndParametersAreOne)
   EXPECT_TRUE(sameBits(run(gpf, cloud), run(other, cloud)));
 }
 
+TEST(GPF, RadiusThatExplodesIsRefusedBeforeTheWork)
+{
+  GPF<PointT> gpf;
+  gpf.setParameters(GPFParameters::paper());
+  gpf.setSupportRadius(1000.0);
+  bool begun = false;
+  gpf.setProgressCallback([&](double) { return begun = true; });
+  EXPECT_THROW(run(gpf, toCloud<PointT>(cube(100000))), pcl::ComputeFailedException);
+  EXPECT_FALSE(begun);
+}
+
 TEST(GPF, EveryParameterOutOfRangeThrows)
 {
   const Cloud::Ptr cloud = toCloud<PointT>(cube(100, 0.01));

@@ -38,13 +38,14 @@ struct MarchingCubesStatistics {
 
 /** \brief Triangles of the zero set of a function, with shared vertices and normals along the gradient.
  *
- * Follows the surface from cell to cell, beginning at the cells of the seeds, so that time and memory are proportional to the surface:
- * about 250 bytes a crossed cell. Parts of the zero set that no seed's part is connected with are not found. Cells with an undefined
- * corner are left out: the surface ends where its support does.
+ * Follows the surface from cell to cell, beginning at the cells of the seeds, so that time and memory are proportional
+ * to the surface: about 250 bytes a crossed cell. Parts of the zero set that no seed's part is connected with are not
+ * found. Cells with an undefined corner are left out: the surface ends where its support does.
  *
- * Faces of cells with two corners of each sign, opposite each other, are joined as the bilinear function of the four corners is (the
- * asymptotic decider of Nielson and Hamann, 1991), which both cells see alike, and polygons are cut only by diagonals within the cell. So
- * every edge has two triangles of opposite direction, or one at the border of the domain. A corner with f = 0 counts as inside.
+ * Faces of cells with two corners of each sign, opposite each other, are joined as the bilinear function of the four
+ * corners is (the asymptotic decider of Nielson and Hamann, 1991), which both cells see alike, and polygons are cut
+ * only by diagonals within the cell. So every edge has two triangles of opposite direction, or one at the border of the
+ * domain. A corner with f = 0 counts as inside.
  * \param[in] function evaluated in batches from the calling thread
  * \param[in] seeds positions on or near the surface; a cell of them counts if the surface crosses it
  * \return mesh in an order that depends neither on threads nor on the order of the seeds

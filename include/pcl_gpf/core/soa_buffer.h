@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -43,9 +44,9 @@ public:
     const std::size_t padded = (size + 2 * kPadding - 1) / kPadding * kPadding;
     if (size > static_cast<std::size_t>(-1) / sizeof(T) / 2)
       throw std::bad_alloc();
-    data_.reset(static_cast<T*>(std::aligned_alloc(kAlignment, padded * sizeof(T))));
-    if (!data_)
-      throw std::bad_alloc();
+    data_.reset(); // first: the new array may take the room of the old
+    size_ = 0;
+    data_.reset(allocate(padded));
     size_ = size;
     std::fill_n(data_.get(), size, value);
     std::fill_n(data_.get() + size, padded - size, T{});
@@ -63,8 +64,22 @@ public:
   const T* end() const { return data_.get() + size_; }
 
 private:
+  /** From malloc() and not from aligned_alloc(), which does not find the hole that a freed array of the same size left behind: the
+   * peak of memory would be a quarter higher. The address to free stands before the first element. */
+  static T*
+  allocate(std::size_t count)
+  {
+    void* const whole = std::malloc(count * sizeof(T) + kAlignment + sizeof(void*));
+    if (!whole)
+      throw std::bad_alloc();
+    const auto first = reinterpret_cast<std::uintptr_t>(whole) + sizeof(void*) + kAlignment - 1;
+    void** const aligned = reinterpret_cast<void**>(first - first % kAlignment);
+    aligned[-1] = whole;
+    return reinterpret_cast<T*>(aligned);
+  }
+
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    void operator()(T* p) const { std::free(reinterpret_cast<void**>(p)[-1]); }
   };
   std::unique_ptr<T[], Free> data_;
   std::size_t size_ = 0;

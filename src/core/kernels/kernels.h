@@ -9,7 +9,7 @@
 namespace pcl_gpf {
 
 /** What the wide loops see: raw pointers and numbers only. Every array of queries is padded to a multiple of 16; every array of data
- * has at least one padded element, whose position is far beyond any radius. */
+ * has 16 padded elements (whole vectors are read); their positions are far beyond any radius. */
 namespace kernels {
 
 template <typename Real>

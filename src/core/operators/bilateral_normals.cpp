@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/analysis/work_estimate.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/bilateral_normals.h>
 #include <pcl_gpf/core/parallel.h>
@@ -269,6 +270,7 @@ filterNormalsBilaterally(const BilateralNormalsParameters& parameters, const Poi
   validate(parameters);
   if (parameters.radius <= 0.0 && parameters.neighbors == 0)
     throw InvalidParameter("bilateral radius or neighbors must be set; both are 0");
+  refuseExcessiveWork(estimateWork(parameters, points, search && parameters.neighbors == 0));
   SortedVectors<float> current = unitVectors(normals, resolveThreads(parameters.number_of_threads));
   const std::size_t count = points.size();
   BilateralNormalsStatistics statistics;

@@ -6,6 +6,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "../check_range.h"
+#include "../sorted_points.h"
 #include "upsampling_rounds.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace pcl_gpf {
 namespace {
 
 constexpr double kMostFactor = 1000.0;
-constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 constexpr double kRadiusInSpacings = 3.0;
 /** Share of the requested spacing down to which clearances are filled, so that estimateSpacing() of the result is the request. */
 constexpr double kClearanceOfSpacing = 0.775;
@@ -79,13 +79,13 @@ targetCount(const EdgeAwareUpsamplingParameters& p, std::size_t input)
   const double most = kMostFactor * static_cast<double>(input);
   double target = static_cast<double>(p.target_count);
   if (p.target_count == 0 && p.spacing > 0.0)
-    target = std::min(most, static_cast<double>(kMostPoints));
+    target = std::min(most, static_cast<double>(kMostCloudPoints));
   else if (p.target_count == 0)
     target = std::floor((p.factor > 0.0 ? p.factor : 2.0) * static_cast<double>(input) + 0.5);
   checkRange("target count", target, target >= static_cast<double>(input) && target <= most,
              ("from the " + std::to_string(input) + " points of the input to 1000 times as many").c_str());
-  if (target > static_cast<double>(kMostPoints))
-    throw ExcessiveWork("the target is " + toText(target) + " points; the limit of one cloud is " + std::to_string(kMostPoints));
+  if (target > static_cast<double>(kMostCloudPoints))
+    throw ExcessiveWork("the target is " + toText(target) + " points; the limit of one cloud is " + std::to_string(kMostCloudPoints));
   return static_cast<std::size_t>(target);
 }
 

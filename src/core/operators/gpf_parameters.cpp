@@ -36,11 +36,13 @@ void
 validate(const GPFParameters& p)
 {
   checkRange("support_radius", p.support_radius, p.support_radius >= 0.0, ">= 0, 0 = estimated");
-  checkRange("repulsion_weight", p.repulsion_weight, p.repulsion_weight >= 0.0 && p.repulsion_weight <= 0.5, "0 .. 0.5");
+  checkRange("repulsion_weight", p.repulsion_weight, p.repulsion_weight >= 0.0 && p.repulsion_weight <= 0.5,
+             "0 .. 0.5");
   checkRange("outlier_weight", p.outlier_weight, p.outlier_weight >= 0.0 && p.outlier_weight < 1.0, "0 <= omega < 1");
   checkRange("initial_variance", p.initial_variance, p.initial_variance >= 0.0, ">= 0, 0 = (h / 2)^2");
   checkRange("normal_angle", p.normal_angle, p.normal_angle > 0.0 && p.normal_angle <= 90.0, "0 < angle <= 90 degrees");
-  checkRange("normal_weight_floor", p.normal_weight_floor, p.normal_weight_floor >= 0.0 && p.normal_weight_floor <= 1.0, "0 .. 1");
+  checkRange("normal_weight_floor", p.normal_weight_floor, p.normal_weight_floor >= 0.0 && p.normal_weight_floor <= 1.0,
+             "0 .. 1");
   checkRange("sample_ratio", p.sample_ratio, p.sample_ratio > 0.0 && p.sample_ratio <= 1.0, "0 < ratio <= 1");
   checkRange("maximum_iterations", p.maximum_iterations, p.maximum_iterations <= 10000, "0 .. 10000");
   checkRange("convergence_threshold", p.convergence_threshold, p.convergence_threshold >= 0.0, ">= 0");

@@ -22,7 +22,8 @@ GPFPoints<Real>::points() const
 }
 
 template <typename Real>
-GPFPoints<Real>::GPFPoints(const GPFInput& input, unsigned number_of_threads) : threads_(resolveThreads(number_of_threads))
+GPFPoints<Real>::GPFPoints(const GPFInput& input, unsigned number_of_threads)
+: threads_(resolveThreads(number_of_threads))
 {
   index_ = input.index;
   std::vector<std::uint32_t> order; // of the arrays in `input`; empty: that of the index
@@ -100,7 +101,8 @@ GPFPoints<Real>::displacements(MutableVectorsView out) const
   const kernels::Vectors<Real> from = points();
   write(out, [&](std::size_t s) {
     const std::size_t seed = seedOf(s);
-    return std::array<Real, 3>{samples_.x[s] - from.x[seed], samples_.y[s] - from.y[seed], samples_.z[s] - from.z[seed]};
+    return std::array<Real, 3>{samples_.x[s] - from.x[seed], samples_.y[s] - from.y[seed],
+                               samples_.z[s] - from.z[seed]};
   });
 }
 

@@ -12,7 +12,7 @@
 
 namespace pcl_gpf {
 
-/** The input points V and the projected points X of a GPF recursion, both sorted along the curve, in float or double. */
+/** Input points V and projected points X of a GPF recursion, both sorted along the curve, in float or double. */
 template <typename Real>
 class GPFPoints {
 public:

@@ -68,8 +68,11 @@ public:
   releaseNeighborhoods() override;
 
 private:
-  struct DataSums;
-  struct RepulsionSums;
+  struct DataSums; // gpf_move.cpp
+  struct RepulsionSums {
+    AlignedArray<Real> weight;
+    SortedVectors<Real> push;
+  };
   struct Step {
     Real x = 0, y = 0, z = 0;
   };
@@ -112,8 +115,8 @@ private:
   double
   repulsionWeight() const;
   void
-  gaussianSums(kernels::Vectors<Real> queries, std::size_t count, kernels::Vectors<Real> data, const Neighborhoods& neighborhoods,
-               double radius, double falloff, AlignedArray<Real>& out) const;
+  gaussianSums(kernels::Vectors<Real> queries, std::size_t count, kernels::Vectors<Real> data,
+               const Neighborhoods& neighborhoods, double radius, double falloff, AlignedArray<Real>& out) const;
   Neighborhoods
   neighborhoods(const ClusterTree& tree, PointsView data, PointsView queries, double reach) const;
   const Neighborhoods&

@@ -13,10 +13,11 @@ namespace pcl_gpf {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/** Radius in which support is counted: most of the noise, at least a few neighbours, and no more than are needed to tell. */
+/** Radius in which support is counted: most of the noise, at least a few neighbours, and no more than are needed to
+ * tell. */
 constexpr double kBallNoises = 2.5, kLeastBallSpacings = 3.0, kMostBallSpacings = 8.0;
-/** Width of the surface component: the noise and what its estimate and the surface may be wrong by. Beside sharp edges the filter
- * itself moves points by up to a spacing. */
+/** Width of the surface component: the noise and what its estimate and the surface may be wrong by. Beside sharp edges
+ * the filter itself moves points by up to a spacing. */
 constexpr double kNoiseMargin = 1.25, kLeastWidthSpacings = 0.5;
 /** Standard deviations by which support must exceed what outliers leave there. */
 constexpr double kSignificance = 2.0;
@@ -27,7 +28,8 @@ struct Mixture {
   : ball(std::min(std::max(kBallNoises * p.noise, kLeastBallSpacings * p.spacing), kMostBallSpacings * p.spacing))
   , width(std::max(kNoiseMargin * p.noise, kLeastWidthSpacings * p.spacing))
   {
-    const double spread = std::max(p.data_radius, ball); // a filter narrower than the spacing does not make outliers of all points
+    // a filter narrower than the spacing does not make outliers of all points
+    const double spread = std::max(p.data_radius, ball);
     const double expected = kPi * spread * spread / (p.spacing * p.spacing);
     uniform = p.outlier_weight * expected / (4.0 / 3.0 * kPi * std::pow(spread, 3));
     const double background = uniform * 4.0 / 3.0 * kPi * std::pow(ball, 3);
@@ -45,7 +47,8 @@ struct Mixture {
     if (!(uniform > 0.0))
       return 0.0;
     const double scaled = move / width;
-    const double surface = std::max(0.0, support - threshold) / area * std::exp(-0.5 * scaled * scaled) / (width * std::sqrt(2.0 * kPi));
+    const double surface =
+        std::max(0.0, support - threshold) / area * std::exp(-0.5 * scaled * scaled) / (width * std::sqrt(2.0 * kPi));
     return uniform / (uniform + surface);
   }
 
@@ -53,50 +56,84 @@ struct Mixture {
   double uniform = 0.0, threshold = 0.0, area = 1.0;
 };
 
-/** Input points in the ball about each of the queries, which are sorted. */
+/** Input points in the ball about each of the queries, which are sorted. \param[out] unused room for as many floats */
 AlignedArray<float>
-countData(const PointIndex& data, const SortedVectors<float>& queries, double radius, std::size_t threads)
+countData(const PointIndex& data, const SoaBuffer& queries, double radius, std::size_t threads, float* unused)
 {
   const PointsView points = data.sorted();
-  const AlignedArray<float> no_field(points.size + kQueryBlock);
-  AlignedArray<float> count(queries.size() + kQueryBlock), unused(queries.size() + kQueryBlock);
+  AlignedArray<float> count(queries.size() + kQueryBlock);
   kernels::FieldSums a;
-  a.queries = queries.vectors();
+  a.queries = {queries.x.data(), queries.y.data(), queries.z.data()};
   a.data = {points.x, points.y, points.z};
   a.radius.radius_sq = static_cast<float>(radius * radius);
-  a.first_field = a.second_field = no_field.data();
+  a.first_field = a.second_field = points.x; // any: only the count is wanted
   a.count = count.data();
-  a.weight_sum = a.first_sum = a.second_sum = unused.data();
-  const PointsView view{queries.x.data(), queries.y.data(), queries.z.data(), queries.size()};
-  const Neighborhoods near = findNeighborhoods(data.tree(), view, radius, threads);
+  a.weight_sum = a.first_sum = a.second_sum = unused;
+  const Neighborhoods near = findNeighborhoods(data.tree(), queries.view(), radius, threads);
   const kernels::Candidates candidates = candidatesOf(near);
-  parallelBlocks(blockCount(view.size), kBlocksPerTask, threads,
+  parallelBlocks(blockCount(queries.size()), kBlocksPerTask, threads,
                  [&](std::size_t begin, std::size_t end) { kernels::active().field_sums(candidates, a, begin, end); });
   return count;
+}
+
+double
+lengthOfPath(PointsView p)
+{
+  double length = 0.0;
+  for (std::size_t k = 1; k < p.size; ++k)
+    length += std::hypot(p.x[k] - p.x[k - 1], p.y[k] - p.y[k - 1], p.z[k] - p.z[k - 1]);
+  return length;
+}
+
+/** Whether places that are next to each other in memory are so in space, as in the order of the data. */
+bool
+followsCurve(const SoaBuffer& places, const PointIndex& data)
+{
+  constexpr double kMuchLonger = 2.0;
+  return places.size() == data.size() && lengthOfPath(places.view()) < kMuchLonger * lengthOfPath(data.sorted());
+}
+
+SoaBuffer
+inOrder(const SoaBuffer& from, const std::vector<std::uint32_t>& order)
+{
+  SoaBuffer to(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    to.x[k] = from.x[order[k]];
+    to.y[k] = from.y[order[k]];
+    to.z[k] = from.z[order[k]];
+  }
+  return to;
 }
 
 } // namespace
 
 std::vector<float>
-outlierProbabilities(const OutlierProbabilityParameters& p, const PointIndex& data, PointsView filtered, const float* moves)
+outlierProbabilities(const OutlierProbabilityParameters& p, const PointIndex& data, const SoaBuffer& filtered,
+                     const float* moves)
 {
   checkRange("noise", p.noise, p.noise >= 0.0, ">= 0");
   checkRange("spacing", p.spacing, p.spacing > 0.0, "> 0");
   checkRange("data_radius", p.data_radius, p.data_radius > 0.0, "> 0");
   checkRange("outlier_weight", p.outlier_weight, p.outlier_weight >= 0.0 && p.outlier_weight < 1.0, ">= 0 and < 1");
-  std::vector<float> probabilities(filtered.size);
-  if (filtered.size == 0)
-    return probabilities;
+  if (filtered.size() == 0)
+    return {};
+  std::vector<float> probabilities(filtered.size() + kQueryBlock); // first holds what the kernel sums beside the count
   const std::size_t threads = resolveThreads(p.number_of_threads);
   const Mixture mixture(p);
   const double ball = boundedRadius(mixture.ball);
-  const std::vector<std::uint32_t> order = hilbertOrder(filtered, threads);
-  const AlignedArray<float> count = countData(data, gather<float>(filtered, {}, order, kFarAway, threads), ball, threads);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const double move = moves[order[k]];
+  std::vector<std::uint32_t> order; // empty: as they are
+  if (!followsCurve(filtered, data))
+    order = hilbertOrder(filtered.view(), threads);
+  const AlignedArray<float> count =
+      order.empty() ? countData(data, filtered, ball, threads, probabilities.data())
+                    : countData(data, inOrder(filtered, order), ball, threads, probabilities.data());
+  for (std::size_t k = 0; k < filtered.size(); ++k) {
+    const std::size_t place = order.empty() ? k : order[k];
+    const double move = moves[place];
     const double own = move < ball ? 1.0 : 0.0;
-    probabilities[order[k]] = static_cast<float>(mixture.probability(count[k] - own, move));
+    probabilities[place] = static_cast<float>(mixture.probability(count[k] - own, move));
   }
+  probabilities.resize(filtered.size());
   return probabilities;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/analysis/work_estimate.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
 #include <pcl_gpf/core/parallel.h>
@@ -149,6 +150,7 @@ estimatePlaneNormals(const PlaneNormalsParameters& parameters, const PointIndex&
                      float* surface_variation)
 {
   checkRange("normal radius", parameters.radius, parameters.radius > 0.0, "> 0");
+  refuseExcessiveWork(estimateWork(parameters, points));
   const std::size_t threads = resolveThreads(parameters.number_of_threads);
   const PointsView view = points.sorted();
   const double radius = boundedRadius(parameters.radius);

@@ -18,8 +18,8 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kRadiusNeighbors = 16; // the point itself counted
-/** Local radii are kept within this factor of their median: an outlier's ball must not cover the cloud, a pile of duplicates must reach
- * something. */
+/** Local radii are kept within this factor of their median: an outlier's ball must not cover the cloud, a pile of
+ * duplicates must reach something. */
 constexpr float kRadiusSpread = 16.0f;
 /** r_i of an even cloud in spacings: sqrt(16 / pi) / 2. */
 constexpr double kRadiusInSpacings = 1.1283791670955126;
@@ -61,9 +61,11 @@ validate(const RimlsParameters& p)
   checkRange("radius", p.radius, p.radius >= 0.0, ">= 0, 0 = from scale");
   checkRange("minimum_radius", p.minimum_radius, p.minimum_radius >= 0.0, ">= 0");
   checkRange("sigma_n", p.sigma_n, p.sigma_n >= 1e-3 && p.sigma_n <= 1e6, "0.001 .. 1000000");
-  checkRange("sigma_r", p.sigma_r, p.sigma_r == 0.0 || (p.sigma_r >= 1e-3 && p.sigma_r <= 1e6), "0 = off, or 0.001 .. 1000000");
+  checkRange("sigma_r", p.sigma_r, p.sigma_r == 0.0 || (p.sigma_r >= 1e-3 && p.sigma_r <= 1e6),
+             "0 = off, or 0.001 .. 1000000");
   checkRange("fits", p.fits, p.fits >= 1 && p.fits <= 100, "1 .. 100");
-  checkRange("maximum_iterations", p.maximum_iterations, p.maximum_iterations >= 1 && p.maximum_iterations <= 1000, "1 .. 1000");
+  checkRange("maximum_iterations", p.maximum_iterations, p.maximum_iterations >= 1 && p.maximum_iterations <= 1000,
+             "1 .. 1000");
   checkRange("accuracy", p.accuracy, p.accuracy > 0.0, "> 0");
   checkRange("minimum_samples", p.minimum_samples, p.minimum_samples >= 1, ">= 1");
   checkRange("domain", p.domain, p.domain > 0.0, "> 0");

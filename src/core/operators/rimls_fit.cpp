@@ -57,7 +57,8 @@ RimlsFit::reach(std::size_t i) const
 }
 
 void
-RimlsFit::run(const kernels::Candidates& candidates, kernels::Vectors<float> queries, std::size_t first, std::size_t count)
+RimlsFit::run(const kernels::Candidates& candidates, kernels::Vectors<float> queries, std::size_t first,
+              std::size_t count)
 {
   sums_.queries = queries;
   sums_.first_output = first;
@@ -80,7 +81,8 @@ void
 RimlsFit::closePlainFit(std::size_t count)
 {
   for (std::size_t i = 0; i < count; ++i) {
-    inside_[i] = weight_[i] > kLeastWeight && count_[i] >= static_cast<float>(parameters_.minimum_samples) && close_count_[i] > 0.0f;
+    inside_[i] = weight_[i] > kLeastWeight && count_[i] >= static_cast<float>(parameters_.minimum_samples) &&
+                 close_count_[i] > 0.0f;
     done_[i] = !inside_[i];
     plain_weight_[i] = weight_[i];
     value_[i] = gradient_.x[i] = gradient_.y[i] = gradient_.z[i] = 0.0f;

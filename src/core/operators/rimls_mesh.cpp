@@ -25,7 +25,8 @@ constexpr double kLeastScale = 3.5;
 /** Shares of the work, for the progress. */
 constexpr double kSeedsDone = 0.15, kCellsDone = 0.8;
 
-/** Longest side of the box; of the middle 99 % of the points on each axis where the box is more than twice as long, as with outliers. */
+/** Longest side of the box; of the middle 99 % of the points on each axis where the box is more than twice as long, as
+ * with outliers. */
 double
 boxSide(PointsView points)
 {
@@ -33,7 +34,8 @@ boxSide(PointsView points)
   for (const float* axis : {points.x, points.y, points.z}) {
     std::vector<float> values(axis, axis + points.size);
     const auto quantile = [&](double share) {
-      const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+      const auto at =
+          values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
       std::nth_element(values.begin(), at, values.end());
       return static_cast<double>(*at);
     };
@@ -53,13 +55,14 @@ void
 refuseTooMuchMemory(double bytes, double limit, double cells_along_side)
 {
   if (bytes > limit)
-    throw ExcessiveWork("a resolution of " + toText(std::round(cells_along_side)) + " cells along the longest side takes about " +
-                        gibibytes(bytes) + "; allowed are " + gibibytes(limit) + ", enough for a resolution of about " +
+    throw ExcessiveWork("a resolution of " + toText(std::round(cells_along_side)) +
+                        " cells along the longest side takes about " + gibibytes(bytes) + "; allowed are " +
+                        gibibytes(limit) + ", enough for a resolution of about " +
                         toText(std::floor(cells_along_side * std::sqrt(limit / bytes))));
 }
 
-/** Local radii for cells that the points do not fill: a cell on a convex corner, which reaches a diagonal beyond the surface, must be in
- * the domain. The support stays what it is where it is wide enough for that. */
+/** Local radii for cells that the points do not fill: a cell on a convex corner, which reaches a diagonal beyond the
+ * surface, must be in the domain. The support stays what it is where it is wide enough for that. */
 RimlsParameters
 fitToCells(const RimlsMeshParameters& parameters, double cell_size, double spacing)
 {
@@ -138,7 +141,8 @@ projectVertices(const RimlsSurface& surface, double cell_size, SurfaceMesh& mesh
   surface.project(moved.view(), mesh.normals.view(), nullptr, {}, progress);
   double movement = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double dx = moved.x[i] - mesh.vertices.x[i], dy = moved.y[i] - mesh.vertices.y[i], dz = moved.z[i] - mesh.vertices.z[i];
+    const double dx = moved.x[i] - mesh.vertices.x[i], dy = moved.y[i] - mesh.vertices.y[i],
+                 dz = moved.z[i] - mesh.vertices.z[i];
     const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
     if (length > cell_size) // ran away along an edge of the domain: the vertex between the corners is the better one
       continue;
@@ -156,10 +160,12 @@ foresee(const RimlsMeshParameters& parameters, PointsView points, const PointInd
 {
   done.spacing = estimateSpacing(index, parameters.number_of_threads);
   if (points.size < kFewestPoints || !(done.spacing > 0.0))
-    throw UnsuitableData(std::to_string(points.size) + " points" + (points.size < kFewestPoints ? "" : " in one place") + " make no surface");
+    throw UnsuitableData(std::to_string(points.size) + " points" +
+                         (points.size < kFewestPoints ? "" : " in one place") + " make no surface");
   const double side = boxSide(points);
   done.cell_size = parameters.cell_size > 0.0 ? parameters.cell_size : side / parameters.resolution;
-  done.expected_memory = estimateSurfaceMemory(done.spacing * done.spacing * static_cast<double>(points.size), done.cell_size);
+  done.expected_memory =
+      estimateSurfaceMemory(done.spacing * done.spacing * static_cast<double>(points.size), done.cell_size);
   refuseTooMuchMemory(done.expected_memory, static_cast<double>(parameters.memory_limit), side / done.cell_size);
 }
 
@@ -180,7 +186,8 @@ validate(const RimlsMeshParameters& p)
   validate(p.rimls);
   checkRange("resolution", p.resolution, p.resolution >= 2 && p.resolution <= 65536, "2 .. 65536");
   checkRange("cell_size", p.cell_size, p.cell_size >= 0.0, ">= 0, 0 = from the resolution");
-  checkRange("smallest_component", p.smallest_component, p.smallest_component >= 0.0 && p.smallest_component <= 1.0, "0 .. 1");
+  checkRange("smallest_component", p.smallest_component, p.smallest_component >= 0.0 && p.smallest_component <= 1.0,
+             "0 .. 1");
   checkRange("largest_hole", p.largest_hole, p.largest_hole <= 1000, "0 .. 1000");
   checkRange("memory_limit", static_cast<double>(p.memory_limit), p.memory_limit >= 1, ">= 1 byte");
 }
@@ -196,8 +203,8 @@ checkMeshMemory(const RimlsMeshParameters& parameters, PointsView points)
 }
 
 SurfaceMesh
-meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView normals, const ProgressCallback& progress,
-          RimlsMeshStatistics* statistics)
+meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView normals,
+          const ProgressCallback& progress, RimlsMeshStatistics* statistics)
 {
   const auto start = std::chrono::steady_clock::now();
   validate(parameters);
@@ -229,7 +236,8 @@ meshRimls(const RimlsMeshParameters& parameters, PointsView points, NormalsView 
   cells.normals = !parameters.project_vertices;
   const ImplicitFunction function = [&](PointsView at, const ImplicitValues& values) { surface.evaluate(at, values); };
   const SoaBuffer seeds = seedsOnSurface(surface, done.cell_size, partOf(progress, 0.0, kSeedsDone));
-  SurfaceMesh mesh = extractSurface(cells, function, seeds.view(), partOf(progress, kSeedsDone, kCellsDone), &done.cells);
+  SurfaceMesh mesh =
+      extractSurface(cells, function, seeds.view(), partOf(progress, kSeedsDone, kCellsDone), &done.cells);
   done.removed_components = removeSmallComponents(mesh, parameters.smallest_component);
   if (parameters.project_vertices) {
     done.mean_vertex_movement = projectVertices(surface, done.cell_size, mesh, partOf(progress, kCellsDone, 1.0));

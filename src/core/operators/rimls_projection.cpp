@@ -86,7 +86,8 @@ finish(const Walk& walk, MutableVectorsView positions, MutableVectorsView normal
   RimlsProjectionStatistics statistics;
   for (std::size_t w = 0; w < walk.order.size(); ++w) {
     const std::size_t i = walk.order[w];
-    const double dx = walk.best.x[w] - walk.start.x[w], dy = walk.best.y[w] - walk.start.y[w], dz = walk.best.z[w] - walk.start.z[w];
+    const double dx = walk.best.x[w] - walk.start.x[w], dy = walk.best.y[w] - walk.start.y[w],
+                 dz = walk.best.z[w] - walk.start.z[w];
     const double movement = std::sqrt(dx * dx + dy * dy + dz * dz);
     statistics.mean_movement += movement;
     statistics.max_movement = std::max(statistics.max_movement, movement);
@@ -113,8 +114,8 @@ finish(const Walk& walk, MutableVectorsView positions, MutableVectorsView normal
 } // namespace
 
 RimlsProjectionStatistics
-RimlsSurface::project(MutableVectorsView positions, MutableVectorsView normals, RimlsState* states, const NeighborSearch& search,
-                      const ProgressCallback& progress) const
+RimlsSurface::project(MutableVectorsView positions, MutableVectorsView normals, RimlsState* states,
+                      const NeighborSearch& search, const ProgressCallback& progress) const
 {
   const Implementation& surface = *implementation_;
   const auto report = [&](double fraction) {
@@ -131,10 +132,13 @@ RimlsSurface::project(MutableVectorsView positions, MutableVectorsView normals, 
   const std::size_t most = surface.parameters.maximum_iterations;
   for (; iterations < most && !walkers.empty(); ++iterations) {
     report(static_cast<double>(iterations) / static_cast<double>(most));
-    const SortedVectors<float> here = gather<float>({walk.at.x.data(), walk.at.y.data(), walk.at.z.data(), walk.at.size()}, {}, walkers, 0.0f);
-    surface.fitAll({here.x.data(), here.y.data(), here.z.data(), walkers.size()}, search,
-                   [&](const RimlsFit& fit, std::size_t k, std::size_t i) { step(walk, walkers[k], fit, i, accuracy); });
-    walkers.erase(std::remove_if(walkers.begin(), walkers.end(), [&](std::uint32_t w) { return walk.walking[w] == 0; }), walkers.end());
+    const SortedVectors<float> here =
+        gather<float>({walk.at.x.data(), walk.at.y.data(), walk.at.z.data(), walk.at.size()}, {}, walkers, 0.0f);
+    surface.fitAll(
+        {here.x.data(), here.y.data(), here.z.data(), walkers.size()}, search,
+        [&](const RimlsFit& fit, std::size_t k, std::size_t i) { step(walk, walkers[k], fit, i, accuracy); });
+    walkers.erase(std::remove_if(walkers.begin(), walkers.end(), [&](std::uint32_t w) { return walk.walking[w] == 0; }),
+                  walkers.end());
   }
   RimlsProjectionStatistics statistics = finish(walk, positions, normals, states);
   statistics.iterations = iterations;

@@ -30,7 +30,7 @@ struct RimlsSurface::Implementation {
   void
   prepare();
 
-  /** \brief Calls visit(fit, position, its place in the fit) for every position, on many threads, each position once. */
+  /** \brief Calls visit(fit, position, its place in the fit) for every position, on many threads, each once. */
   template <typename Visit>
   void
   fitAll(PointsView positions, const NeighborSearch& search, const Visit& visit) const

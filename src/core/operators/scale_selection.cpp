@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl_gpf {
 
@@ -29,16 +30,16 @@ constexpr float kOneFace = 0.97f;
 constexpr double kOutlier = 4.0;
 /** Mean square of heights, in squares of the noise, which noise alone does not reach. */
 constexpr double kMerged = 3.0;
-/** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p of a noisy estimate; between them by
- * measurement. */
+/** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p of a noisy estimate;
+ * between them by measurement. */
 constexpr double kVariances = 1.5;
 /** Standard deviation of a filtered point in units of noise / sqrt(data in the ball). */
 constexpr double kSpread = 1.15;
 
 /** Every stride-th of the sorted points, with results for each. */
 struct Probes {
-  Probes(PointsView positions, NormalsView directions, std::size_t stride)
-  : size((positions.size + stride - 1) / stride)
+  Probes(const SoaBuffer& positions, const SoaBuffer& directions, std::size_t stride)
+  : size((positions.size() + stride - 1) / stride)
   , points(size, kFarAway)
   , normals(size)
   , count(size + kQueryBlock)
@@ -47,7 +48,7 @@ struct Probes {
   , second(size + kQueryBlock)
   {
     for (std::size_t k = 0; k < size; ++k) {
-      const std::size_t place = std::min(k * stride + stride / 2, positions.size - 1);
+      const std::size_t place = std::min(k * stride + stride / 2, positions.size() - 1);
       points.x[k] = positions.x[place], points.y[k] = positions.y[place], points.z[k] = positions.z[place];
       normals.x[k] = directions.x[place], normals.y[k] = directions.y[place], normals.z[k] = directions.z[place];
     }
@@ -59,6 +60,19 @@ struct Probes {
   SortedVectors<float> points, normals;
   AlignedArray<float> count, weight, first, second;
 };
+
+/** The elements at `places`, which ascend. */
+SoaBuffer
+elementsOf(const SoaBuffer& from, const std::vector<std::uint32_t>& places)
+{
+  SoaBuffer to(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    to.x[k] = from.x[places[k]];
+    to.y[k] = from.y[places[k]];
+    to.z[k] = from.z[places[k]];
+  }
+  return to;
+}
 
 void
 sumFields(kernels::FieldSums a, const ClusterTree& tree, double radius, Probes& probes, std::size_t threads)
@@ -78,40 +92,54 @@ sumFields(kernels::FieldSums a, const ClusterTree& tree, double radius, Probes& 
 
 /** Height of a point of the input above the coarse surface, along its normal. */
 float
-residualHeight(PointsView input, PointsView positions, NormalsView normals, std::size_t i)
+residualHeight(PointsView input, const SoaBuffer& positions, const SoaBuffer& normals, std::size_t i)
 {
   return (input.x[i] - positions.x[i]) * normals.x[i] + (input.y[i] - positions.y[i]) * normals.y[i] +
          (input.z[i] - positions.z[i]) * normals.z[i];
 }
 
-/** Means of heights, and of their squares, over the patches about the probes. */
+/** The data as kernels want them: arrays have a padded element behind their end, which must be far away. */
 void
-averageHeights(PointsView input, PointsView positions, NormalsView normals, double noise, double radius, Probes& probes,
-               std::size_t threads)
+markEnd(SoaBuffer& positions)
 {
-  std::vector<std::uint32_t> different; // empty: all
-  if (repeatsManyPoints(input))         // copies are no further evidence
-    different = differentPoints(input);
-  const SortedVectors<float> surface = gather<float>(positions, {}, different, kFarAway, threads);
-  const SortedVectors<float> directions = gather<float>(normals, {}, different, 0.0f, threads);
-  AlignedArray<float> heights(surface.size() + kQueryBlock), squares(surface.size() + kQueryBlock);
+  for (AlignedArray<float>* axis : {&positions.x, &positions.y, &positions.z})
+    std::fill_n(axis->end(), AlignedArray<float>::kPadding, kFarAway);
+}
+
+/** Means of heights, and of their squares, over the patches about the probes. Uses `positions` up. */
+void
+averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_normals, double noise, double radius,
+               Probes& probes, std::size_t threads)
+{
+  AlignedArray<float> heights(positions.size() + kQueryBlock), squares(positions.size() + kQueryBlock);
   const auto longest_sq = static_cast<float>(kOutlier * kOutlier * noise * noise);
-  for (std::size_t k = 0; k < surface.size(); ++k) {
-    heights[k] = residualHeight(input, positions, normals, different.empty() ? k : different[k]);
-    squares[k] = std::min(heights[k] * heights[k], longest_sq);
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    heights[k] = residualHeight(input, positions, all_normals, k);
+  SoaBuffer some_normals;
+  if (repeatsManyPoints(input)) { // copies are no further evidence
+    const std::vector<std::uint32_t> different = differentPoints(input);
+    for (std::size_t k = 0; k < different.size(); ++k)
+      heights[k] = heights[different[k]];
+    positions = elementsOf(positions, different);
+    some_normals = elementsOf(all_normals, different);
   }
+  const SoaBuffer& normals = some_normals.size() > 0 ? some_normals : all_normals;
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    squares[k] = std::min(heights[k] * heights[k], longest_sq);
+  markEnd(positions);
   ClusterTree tree;
-  tree.fit({surface.x.data(), surface.y.data(), surface.z.data(), surface.size()}, threads);
+  tree.fit(positions.view(), threads);
   kernels::FieldSums a;
-  a.data = surface.vectors();
-  a.data_normals = directions.vectors();
+  a.data = {positions.x.data(), positions.y.data(), positions.z.data()};
+  a.data_normals = {normals.x.data(), normals.y.data(), normals.z.data()};
   a.normal_falloff = static_cast<float>(1.0 / (1.0 - std::cos(kFaceAngle)));
   a.first_field = heights.data();
   a.second_field = squares.data();
   sumFields(a, tree, radius, probes, threads);
 }
 
-/** Mean squared bias of the coarse surface about each probe, over the patches that lie on one face; 0 where there is none. */
+/** Mean squared bias of the coarse surface about each probe, over the patches that lie on one face; 0 where there is
+ * none. */
 std::vector<double>
 squaredBias(double noise_sq, double radius, Probes& probes, std::size_t threads)
 {
@@ -141,7 +169,8 @@ squaredBias(double noise_sq, double radius, Probes& probes, std::size_t threads)
 } // namespace
 
 std::vector<std::uint8_t>
-selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, PointsView coarse_positions, NormalsView coarse_normals)
+selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, SoaBuffer coarse_positions,
+                const SoaBuffer& coarse_normals)
 {
   checkRange("noise", p.noise, p.noise >= 0.0, ">= 0");
   checkRange("spacing", p.spacing, p.spacing > 0.0, "> 0");
@@ -159,10 +188,11 @@ selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, Poi
     stride *= 2;
 
   Probes probes(coarse_positions, coarse_normals, stride);
-  averageHeights(points.sorted(), coarse_positions, coarse_normals, p.noise, patch, probes, threads);
+  averageHeights(points.sorted(), std::move(coarse_positions), coarse_normals, p.noise, patch, probes, threads);
   const std::vector<float> in_patch(probes.weight.data(), probes.weight.data() + probes.size);
   const std::vector<double> bias_sq = squaredBias(p.noise * p.noise, hearing, probes, threads);
-  const double variance = kSpread * kSpread * p.noise * p.noise * patch * patch; // divided by the data in a ball of radius 1
+  // divided by the data in a ball of radius 1
+  const double variance = kSpread * kSpread * p.noise * p.noise * patch * patch;
   for (std::size_t k = 0; k < probes.size; ++k) {
     const double data = std::max(1.0f, in_patch[k]);
     const double coarse_risk = bias_sq[k] + kVariances * variance / (data * p.coarse_radius * p.coarse_radius);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "benchmarks/models.h"
-#include "benchmarks/option_values.h"
+#include "benchmarks/cloud_options.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,38 +25,28 @@ plane normals, 5 rounds of the bilateral filter, exactly 10 GPF iterations, all 
   --wlop-retain PERCENT  of the points (default 50; CGAL's is 5)
 )";
 
-struct PeersOptions {
-  std::vector<std::size_t> sizes = {100000};
-  unsigned threads = 0;
-  unsigned repeat = 5;
-  std::string model = "block";
-  double noise = 1.0;
-  double neighbors = 60.0;
+struct PeersOptions : benchmark_options::CloudOptions {
   std::vector<std::string> methods; ///< empty: all
   double time_limit = 0.0;
   double wlop_radius = 0.0;
   unsigned wlop_iterations = 35;
   double wlop_retain = 50.0;
+
+  PeersOptions()
+  {
+    sizes = {100000};
+    neighbors = 60.0;
+  }
 };
 
 inline void
 setValue(PeersOptions& o, const std::string& name, const std::string& value)
 {
   using benchmark_options::number;
-  if (name == "--sizes")
-    o.sizes = benchmark_options::sizes(value, 1000);
-  else if (name == "--threads")
-    o.threads = number<unsigned>(value);
-  else if (name == "--repeat")
-    o.repeat = std::max(1u, number<unsigned>(value));
-  else if (name == "--model") {
-    benchmark_models::makeModel(value, 0, 0.0); // refuses unknown names
-    o.model = value;
-  } else if (name == "--noise")
-    o.noise = number<double>(value);
-  else if (name == "--neighbors")
-    o.neighbors = number<double>(value);
-  else if (name == "--methods")
+  constexpr std::size_t kSmallestCloud = 1000;
+  if (setCloudValue(o, name, value, kSmallestCloud))
+    return;
+  if (name == "--methods")
     o.methods = benchmark_options::list(value);
   else if (name == "--time-limit")
     o.time_limit = number<double>(value);
@@ -76,11 +64,9 @@ inline PeersOptions
 parse(int argc, char** argv)
 {
   PeersOptions o;
-  for (int i = 1; i < argc; i += 2) {
-    if (i + 1 == argc)
-      throw std::invalid_argument(std::string(argv[i]) + " is unknown or lacks its value");
-    setValue(o, argv[i], argv[i + 1]);
-  }
+  benchmark_options::forEachOption(
+      argc, argv, [](const std::string&) { return false; },
+      [&](const std::string& name, const std::string& value) { setValue(o, name, value); });
   return o;
 }
 

@@ -36,7 +36,7 @@ struct Scene {
   std::vector<float>
   probabilities(const OutlierProbabilityParameters& p) const
   {
-    return outlierProbabilities(p, PointIndex(toBuffer(data).view()), toBuffer(filtered).view(), moves.data());
+    return outlierProbabilities(p, PointIndex(toBuffer(data).view()), toBuffer(filtered), moves.data());
   }
 };
 
@@ -143,7 +143,7 @@ TEST(OutlierProbability, takesFewPointsAndRefusesBadParameters)
 {
   const SoaBuffer single = toBuffer({{0, 0, 0}});
   const float no_move = 0.0f;
-  EXPECT_EQ(outlierProbabilities(parameters(), PointIndex(single.view()), single.view(), &no_move), std::vector<float>{1.0f});
+  EXPECT_EQ(outlierProbabilities(parameters(), PointIndex(single.view()), single, &no_move), std::vector<float>{1.0f});
   EXPECT_TRUE(outlierProbabilities(parameters(), PointIndex(single.view()), {}, nullptr).empty());
   const Scene scene(20, 0.01);
   const double nan = std::numeric_limits<double>::quiet_NaN();

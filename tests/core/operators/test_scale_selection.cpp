@@ -56,7 +56,13 @@ struct Scene {
   std::vector<std::uint8_t>
   select(ScaleSelectionParameters p = parameters()) const
   {
-    return selectFineScale(p, points, coarse.view(), up.view());
+    SoaBuffer positions(coarse.size());
+    for (std::size_t k = 0; k < coarse.size(); ++k) {
+      positions.x[k] = coarse.x[k];
+      positions.y[k] = coarse.y[k];
+      positions.z[k] = coarse.z[k];
+    }
+    return selectFineScale(p, points, std::move(positions), up);
   }
 
   static ScaleSelectionParameters

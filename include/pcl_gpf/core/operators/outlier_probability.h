@@ -3,7 +3,7 @@
 
 #include <pcl_gpf/core/export.h>
 #include <pcl_gpf/core/point_index.h>
-#include <pcl_gpf/core/views.h>
+#include <pcl_gpf/core/soa_buffer.h>
 
 #include <vector>
 
@@ -30,8 +30,8 @@ struct OutlierProbabilityParameters {
  * outliers alone would put there and twice the standard deviation of that.
  * So a point is an outlier when it came from too far away, or when hardly any other point is where it went.
  *
- * \param[in] data the unfiltered points \param[in] filtered their filtered places, before moves are bounded, in any order
- * \param[in] moves length of each move, `filtered.size` values
+ * \param[in] data the unfiltered points \param[in] filtered their filtered places, before moves are bounded, in any order; that of
+ * data.sorted() saves the time and memory of sorting them \param[in] moves length of each move, as many as there are places
  * \return 0 .. 1 for each filtered point
  * \throws InvalidParameter
  * Cost: a small part of one filter iteration.
@@ -39,6 +39,6 @@ struct OutlierProbabilityParameters {
  * rest may be taken for outliers.
  */
 PCL_GPF_CORE_EXPORT std::vector<float>
-outlierProbabilities(const OutlierProbabilityParameters& parameters, const PointIndex& data, PointsView filtered, const float* moves);
+outlierProbabilities(const OutlierProbabilityParameters& parameters, const PointIndex& data, const SoaBuffer& filtered, const float* moves);
 
 } // namespace pcl_gpf

@@ -33,18 +33,20 @@ struct RimlsProjectionStatistics {
   double max_movement = 0;
 };
 
-/** \brief Implicit surface of points with consistently oriented normals: robust implicit moving least squares (Oeztireli, Guennebaud,
- * Gross, "Feature Preserving Point Set Surfaces based on Non-Linear Kernel Regression", Eurographics 2009).
+/** \brief Implicit surface of points with consistently oriented normals: robust implicit moving least squares
+ * (Oeztireli, Guennebaud, Gross, "Feature Preserving Point Set Surfaces based on Non-Linear Kernel Regression",
+ * Eurographics 2009).
  *
- * With u = x - p_i, f_i = u.n_i and w_i = (1 - u^2 / h_i^2)^4 for u < h_i, else 0: f = sum w f_i / sum w, first with these weights,
- * then with w_i exp(-|n_i - grad f|^2 / sigma_n^2) exp(-((f_i - f) / (sigma_r h_i))^2), f and grad f those of the fit before, until grad f
- * changes by less than sqrt(1e-3) or the maximum number of fits is reached. grad f takes the robust factors as constant.
- * Sharp edges stay because beyond one the normals differ. On convex parts the surface lies outside the points by about
- * h^2 / (12 R) (it inherits the bias of tangent planes); keep h small against the radius of curvature.
+ * With u = x - p_i, f_i = u.n_i and w_i = (1 - u^2 / h_i^2)^4 for u < h_i, else 0: f = sum w f_i / sum w, first with
+ * these weights, then with w_i exp(-|n_i - grad f|^2 / sigma_n^2) exp(-((f_i - f) / (sigma_r h_i))^2), f and grad f
+ * those of the fit before, until grad f changes by less than sqrt(1e-3) or the maximum number of fits is reached. grad
+ * f takes the robust factors as constant. Sharp edges stay because beyond one the normals differ. On convex parts the
+ * surface lies outside the points by about h^2 / (12 R) (it inherits the bias of tangent planes); keep h small against
+ * the radius of curvature.
  *
- * The domain is where at least `minimum_samples` samples reach and one is within `domain` r_i; outside there is no value.
- * Memory: about 60 bytes a point. const functions may be called from several threads at once; results do not depend on the number of
- * threads, nor on the instruction set.
+ * The domain is where at least `minimum_samples` samples reach and one is within `domain` r_i; outside there is no
+ * value. Memory: about 60 bytes a point. const functions may be called from several threads at once; results do not
+ * depend on the number of threads, nor on the instruction set.
  */
 class PCL_GPF_CORE_EXPORT RimlsSurface {
 public:
@@ -64,7 +66,8 @@ public:
   void
   evaluate(PointsView positions, const ImplicitValues& values) const;
 
-  /** \brief Moves positions onto the surface: x <- x - f grad f / |grad f|, at most h / 2 a step, until |f| <= accuracy * spacing.
+  /** \brief Moves positions onto the surface: x <- x - f grad f / |grad f|, at most h / 2 a step, until |f| is at most
+   * accuracy * spacing.
    *
    * \param[in,out] positions any order
    * \param[out] normals unit gradients at the last evaluation; not written where the state is Outside

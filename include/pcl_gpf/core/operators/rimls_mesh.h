@@ -14,9 +14,9 @@ namespace pcl_gpf {
 
 /** \brief Parameters of the RIMLS surface mesh. Lengths are in the unit of the points they are used with. */
 struct RimlsMeshParameters {
-  /** The implicit surface. Where cells are wide against the points, local radii are raised and the scale is lowered, so that the support
-   * reaches about 4 cells at least: there is nothing to resolve below. Default scale 6, not 4: at a corner of unevenly sampled faces a
-   * small support may see one face only and go on beyond it. */
+  /** The implicit surface. Where cells are wide against the points, local radii are raised and the scale is lowered, so
+   * that the support reaches about 4 cells at least: there is nothing to resolve below. Default scale 6, not 4: at a
+   * corner of unevenly sampled faces a small support may see one face only and go on beyond it. */
   RimlsParameters rimls = defaultRimls();
 
   /** Cells along the longest side of the box of the points (outliers left out), 2 .. 65536. Time and
@@ -32,7 +32,8 @@ struct RimlsMeshParameters {
   /** Connected parts with fewer triangles than this share of the largest one's are removed, 0 .. 1. */
   double smallest_component = 0.01;
 
-  /** Holes of at most so many edges are closed, 0 .. 1000; 0 = none. They appear where the surface leaves its domain for a few cells. */
+  /** Holes of at most so many edges are closed, 0 .. 1000; 0 = none. They appear where the surface leaves its domain
+   * for a few cells. */
   unsigned largest_hole = 30;
 
   /** Bytes that lattice and mesh may take, >= 1. */
@@ -77,10 +78,11 @@ checkMeshMemory(const RimlsMeshParameters& parameters, PointsView points);
 
 /** \brief Mesh of the RIMLS surface of points with consistently oriented normals.
  *
- * Closed where the points are; elsewhere it ends about two local radii beyond them. Counterclockwise faces look along the normals.
+ * Closed where the points are; elsewhere it ends about two local radii beyond them. Counterclockwise faces look along
+ * the normals.
  * \param[in] points N finite positions in the normalised frame \param[in] normals N unit vectors
- * \throws InvalidParameter, UnsuitableData (fewer than 4 points, or all in one place), ExcessiveWork naming the memory that the
- * resolution takes, before the work starts, Cancelled
+ * \throws InvalidParameter, UnsuitableData (fewer than 4 points, or all in one place), ExcessiveWork naming the memory
+ * that the resolution takes, before the work starts, Cancelled
  */
 PCL_GPF_CORE_EXPORT SurfaceMesh
 meshRimls(const RimlsMeshParameters& parameters,

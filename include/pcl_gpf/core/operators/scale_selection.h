@@ -3,7 +3,7 @@
 
 #include <pcl_gpf/core/export.h>
 #include <pcl_gpf/core/point_index.h>
-#include <pcl_gpf/core/views.h>
+#include <pcl_gpf/core/soa_buffer.h>
 
 #include <cstdint>
 #include <vector>
@@ -30,13 +30,13 @@ struct ScaleSelectionParameters {
  * Patches that reach across an edge of the coarse surface do not count: heights of points beside an edge are not even noise.
  *
  * \param[in] points the noisy input
- * \param[in] coarse_positions, coarse_normals the coarse result in the order of points.sorted()
+ * \param[in] coarse_positions, coarse_normals the coarse result in the order of points.sorted(); the positions are given up
  * \return 1 where the fine result is to be taken, for each sorted point
  * \throws InvalidParameter
  * Cost: less than one round of the bilateral normal filter; where points are dense only every 2nd, 4th, ... is looked at.
  */
 PCL_GPF_CORE_EXPORT std::vector<std::uint8_t>
-selectFineScale(const ScaleSelectionParameters& parameters, const PointIndex& points, PointsView coarse_positions,
-                NormalsView coarse_normals);
+selectFineScale(const ScaleSelectionParameters& parameters, const PointIndex& points, SoaBuffer coarse_positions,
+                const SoaBuffer& coarse_normals);
 
 } // namespace pcl_gpf
