@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud_flags.h"
 
+#include "scale_parameters.h"
+
 #include <pcl_gpf/core/operators/edge_points.h>
 #include <pcl_gpf/core/operators/local_noise.h>
 #include <pcl_gpf/core/operators/outlier_probability.h>
@@ -60,7 +62,9 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
     return;
   const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
   const std::vector<float> moves = lengthsOf(cloud.displacements);
-  if (p.flags.outliers)
+  if (p.flags.outliers && packed.rows.size() < kFewestForNoise) // without a noise there is no telling what is more than noise
+    cloud.outlier.assign(moves.size(), 0.0f);
+  else if (p.flags.outliers)
     cloud.outlier = outlierProbabilities(
         {noiseOfMoves(scale.noise, moves), scale.spacing, data_radius, p.gpf.outlier_weight, p.number_of_threads}, *packed.index,
         places.view(), moves.data());

@@ -12,8 +12,6 @@ namespace {
 
 /** Most noises that a point may move. */
 constexpr double kNoises = 6.0;
-/** Fewest points whose noise can be told (estimateNoise()). */
-constexpr std::size_t kFewestForNoise = 48;
 /** Noise below this share of the spacing is none: the cloud is clean and stays as it is. */
 constexpr double kClean = 0.02;
 /** Where more than this share of the moves is longer than the limit, the noise is uneven and was measured in a quiet part. */

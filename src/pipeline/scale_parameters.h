@@ -3,9 +3,13 @@
 
 #include "packed_cloud.h"
 
+#include <cstddef>
 #include <string>
 
 namespace pcl_gpf {
+
+/** Fewest points whose noise can be told (estimateNoise()). */
+constexpr std::size_t kFewestForNoise = 48;
 
 /** Fills the lengths that are to be estimated (estimateParameters()) and notes in `result` where they came from.
  * \param[in] parameters lengths in the normalised frame

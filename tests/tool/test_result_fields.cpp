@@ -183,6 +183,22 @@ TEST(ToolOutliers, AreFlaggedDroppedOrKept)
   EXPECT_EQ(kept["outliers"]["dropped"], 0);
 }
 
+TEST(ToolOutliers, AreNeverDroppedToNothing)
+{
+  TemporaryFolder folder;
+  const std::string in = folder / "in.ply", out = folder / "out.ply";
+  for (const std::size_t count : {2u, 3u, 10u, 47u}) { // too few to tell an outlier
+    save(toCloudFile(sphere(count), FieldType::Float64), in);
+    EXPECT_EQ(filterReport({in, "-o", out, "--outliers", "drop"})["outliers"]["dropped"], 0);
+    EXPECT_EQ(readCloud(out).size(), count);
+  }
+  save(toCloudFile(sphere(60), FieldType::Float64), in);
+  const ToolRun run = runTool({"filter", in, "-o", folder / "none.ply", "--outliers", "drop", "--outlier-weight", "0.9999"});
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_NE(run.err.find("all 60 points"), std::string::npos) << run.err;
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"in.ply", "out.ply"}));
+}
+
 TEST(ToolMaxMove, HoldsInTheWrittenNumbers)
 {
   TemporaryFolder folder;
