@@ -72,10 +72,10 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
     std::vector<float> weights(cloud.outlier.size());
     for (std::size_t k = 0; k < weights.size(); ++k)
       weights[k] = 1.0f - cloud.outlier[k];
-    cloud.sigma = localNoise({data_radius, scale.spacing, p.number_of_threads}, places.view(), cloud.normals.view(), moves.data(),
+    const std::vector<float> local = localNoise({data_radius, scale.spacing, p.number_of_threads}, places.view(), cloud.normals.view(), moves.data(),
                              weights.empty() ? nullptr : weights.data());
-    for (float& sigma : cloud.sigma)
-      sigma = static_cast<float>(packed.frame.lengthToWorld(sigma));
+    for (const float sigma : local)
+      cloud.sigma.push_back(packed.frame.lengthToWorld(static_cast<double>(sigma)));
   }
   if (p.flags.edges) {
     EdgePointsParameters edges;

@@ -27,7 +27,8 @@ struct Packed {
 struct FilteredCloud {
   SoaBuffer displacements, normals;
   std::vector<std::uint8_t> isolated;
-  std::vector<float> outlier, sigma; ///< empty where not wanted
+  std::vector<float> outlier; ///< empty where not wanted
+  std::vector<double> sigma;  ///< cloud units; empty where not wanted
   std::vector<std::uint8_t> edge;
 };
 

@@ -72,7 +72,7 @@ struct DenoiseResult {
   std::vector<std::uint8_t> fine;            ///< 1 = the fine scale's result was taken; empty when one scale was filtered
   static constexpr float kOutlier = 0.5f;    ///< points above are outliers
   std::vector<float> outlier;                ///< probability 0 .. 1 that the point is none of the surface (outlierProbabilities()); 0 below 48 points, which are too few to tell
-  std::vector<float> sigma;                  ///< noise that was taken out about the point, cloud units (localNoise())
+  std::vector<double> sigma;                 ///< noise that was taken out about the point, cloud units (localNoise())
   std::vector<std::uint8_t> edge;            ///< 1 = within h / 4 of a sharp edge of the filtered cloud (edgePoints())
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
   double max_move = 0;                       ///< the limit, cloud units; infinity = none
