@@ -52,6 +52,15 @@ noiseOfMoves(double noise, std::vector<float> moves)
   return std::clamp(static_cast<double>(*quartile) / kQuartileOfNormal, noise, kMostUneven * noise);
 }
 
+/** Not where the noise is unknown, nor where the filter moves points of the surface by more than outliers are told by. */
+bool
+tellsOutliers(const DenoiseParameters& p, const CloudScale& scale, std::size_t points)
+{
+  const bool few = p.gpf.support_radius == 0.0 && biasOfFewPoints(scale.spacing, static_cast<double>(points)) >
+                                                      std::max(scale.noise, 0.5 * scale.spacing);
+  return points >= kFewestForNoise && !few;
+}
+
 } // namespace
 
 void
@@ -62,7 +71,7 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
     return;
   const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
   const std::vector<float> moves = lengthsOf(cloud.displacements);
-  if (p.flags.outliers && packed.rows.size() < kFewestForNoise) // without a noise there is no telling what is more than noise
+  if (p.flags.outliers && !tellsOutliers(p, scale, packed.rows.size()))
     cloud.outlier.assign(moves.size(), 0.0f);
   else if (p.flags.outliers)
     cloud.outlier = outlierProbabilities(
