@@ -219,7 +219,8 @@ TEST(ToolOutliers, AreNeverDroppedToNothing)
     EXPECT_EQ(readCloud(out).size(), count);
   }
   save(toCloudFile(sphere(60), FieldType::Float64), in);
-  const ToolRun run = runTool({"filter", in, "-o", folder / "none.ply", "--outliers", "drop", "--outlier-weight", "0.9999"});
+  const ToolRun run = runTool({"filter", in, "-o", folder / "none.ply", "--outliers", "drop", "--outlier-weight", "0.9999",
+                               "--radius", "4x"});
   EXPECT_EQ(run.exit_code, 5) << run.err;
   EXPECT_NE(run.err.find("all 60 points"), std::string::npos) << run.err;
   EXPECT_EQ(folder.entries(), (std::vector<std::string>{"in.ply", "out.ply"}));
