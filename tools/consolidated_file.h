@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/io/cloud_file.h>
-#include <pcl_gpf/pipeline/consolidation.h>
+#include <pcl_gpf/pipeline/consolidate.h>
 
 namespace pcl_gpf {
 

@@ -31,7 +31,7 @@ timeLeft(double elapsed, double fraction)
 
 } // namespace
 
-Progress::Progress(const Options& options) : mode_(Mode::None), stage_begin_(Clock::now()), last_shown_(stage_begin_)
+Progress::Progress(const Options& options, Of of) : mode_(Mode::None), of_(of), begin_(Clock::now()), last_shown_(begin_)
 {
   const std::string& name = options.text("progress");
   if (options.given("quiet") || name == "none")
@@ -52,13 +52,13 @@ Progress::update(const std::string& stage, double fraction)
 {
   const Clock::time_point now = Clock::now();
   fraction = std::clamp(fraction, 0.0, 1.0);
-  if (stage != stage_) {
-    stage_ = stage;
-    stage_begin_ = now;
+  if (stage != stage_ && of_ == Of::Stage) {
+    begin_ = now;
     last_tenth_ = 0;
   }
+  stage_ = stage;
   const double since_shown = std::chrono::duration<double>(now - last_shown_).count();
-  const std::string left = timeLeft(std::chrono::duration<double>(now - stage_begin_).count(), fraction);
+  const std::string left = timeLeft(std::chrono::duration<double>(now - begin_).count(), fraction);
   const int tenth = static_cast<int>(fraction * 10.0);
   if (mode_ == Mode::Bar && (since_shown >= kBarPeriod || (bar_visible_ && fraction >= 1.0))) {
     showBar(fraction, left);

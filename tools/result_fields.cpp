@@ -31,6 +31,17 @@ valueOf(const std::string& field, const DenoiseResult& result, const std::vector
   return field == "movement" ? moves[k] : field == "sigma" ? at(result.sigma) : field == "edge" ? at(result.edge) : at(result.outlier);
 }
 
+/** Whether no value of a field overflows a float, or underflows and becomes 0. */
+bool
+fitsFloat(const std::string& field, const DenoiseResult& result, const std::vector<double>& moves)
+{
+  using Float = std::numeric_limits<float>;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < moves.size(); ++k)
+    largest = std::max(largest, valueOf(field, result, moves, k)); // NaN is passed over
+  return largest == 0.0 || (largest <= static_cast<double>(Float::max()) && largest >= 1e3 * static_cast<double>(Float::min()));
+}
+
 bool
 isOutlier(const DenoiseResult& result, std::size_t k)
 {
@@ -105,11 +116,12 @@ applyResultFields(CloudFile& cloud, const DenoiseResult& result, const std::vect
 {
   for (const std::string& name : fields) {
     int field = cloud.findField(name);
+    const FieldType type = fitsFloat(name, result, moves) ? FieldType::Float32 : FieldType::Float64;
     if (field >= 0) {
       console.say("the field '" + name + "' of the input is replaced");
-      changeFieldTypes(cloud, {name}, FieldType::Float32);
+      changeFieldTypes(cloud, {name}, type);
     } else
-      field = cloud.addField(name, FieldType::Float32);
+      field = cloud.addField(name, type);
     for (std::size_t i = 0; i < cloud.size(); ++i)
       cloud.setValue(i, field, std::numeric_limits<double>::quiet_NaN());
     for (std::size_t k = 0; k < rows.size(); ++k)

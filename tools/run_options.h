@@ -4,7 +4,7 @@
 #include "load_cloud.h"
 #include "options.h"
 
-#include <pcl_gpf/pipeline/consolidation.h>
+#include <pcl_gpf/pipeline/consolidate.h>
 
 #include <string>
 #include <vector>

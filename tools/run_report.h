@@ -3,7 +3,7 @@
 
 #include "filter_parameters.h"
 
-#include <pcl_gpf/pipeline/consolidation.h>
+#include <pcl_gpf/pipeline/consolidate.h>
 
 #include <nlohmann/json_fwd.hpp>
 

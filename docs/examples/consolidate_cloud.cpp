@@ -1,90 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole chain on a pcl::PointCloud without normals: filter, orientation and mesh in one call.
+// The whole chain on a coloured cloud without normals: filter, orientation, upsampling and mesh in one call.
 #include <pcl_gpf/pipeline/consolidation.h>
 
 #include <pcl/PolygonMesh.h>
 #include <pcl/conversions.h>
+#include <pcl/exceptions.h>
 #include <pcl/point_types.h>
 
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <random>
 #include <string>
-#include <vector>
 
-/** \brief Vertices with normals and the colours of the points that they come from. */
-static pcl::PolygonMesh
-toPolygonMesh(const pcl_gpf::MeshResult& mesh, const pcl::PointCloud<pcl::PointXYZRGB>& source)
+using Cloud = pcl::PointCloud<pcl::PointXYZRGBNormal>;
+
+/** \brief A noisy ball, red above and blue below; yours comes from a file or a sensor. */
+static Cloud::Ptr
+noisyBall(int count, float sigma)
 {
-  pcl::PointCloud<pcl::PointXYZRGBNormal> vertices;
-  for (std::size_t v = 0; v < mesh.source_rows.size(); ++v) {
-    pcl::PointXYZRGBNormal point;
-    point.x = static_cast<float>(mesh.vertices[3 * v]);
-    point.y = static_cast<float>(mesh.vertices[3 * v + 1]);
-    point.z = static_cast<float>(mesh.vertices[3 * v + 2]);
-    point.normal_x = mesh.normals[3 * v];
-    point.normal_y = mesh.normals[3 * v + 1];
-    point.normal_z = mesh.normals[3 * v + 2];
-    point.rgba = source[mesh.source_rows[v]].rgba;
-    vertices.push_back(point);
-  }
-  pcl::PolygonMesh result;
-  pcl::toPCLPointCloud2(vertices, result.cloud);
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    pcl::Vertices triangle;
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      triangle.vertices.push_back(static_cast<pcl::index_t>(mesh.triangles[t + corner]));
-    result.polygons.push_back(triangle);
-  }
-  return result;
-}
-
-int
-main()
-try {
-  // A noisy ball, red above and blue below; yours comes from a file or a sensor.
-  pcl::PointCloud<pcl::PointXYZRGB> cloud;
+  Cloud::Ptr cloud(new Cloud);
   std::mt19937 random;
   std::normal_distribution<float> normal;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < count; ++i) {
     const float x = normal(random), y = normal(random), z = normal(random);
-    const float scale = (1.0f + 0.005f * normal(random)) / std::sqrt(x * x + y * y + z * z);
-    pcl::PointXYZRGB point;
+    const float scale = (1.0f + sigma * normal(random)) / std::sqrt(x * x + y * y + z * z);
+    pcl::PointXYZRGBNormal point; // its normal is 0: to be estimated
     point.x = scale * x;
     point.y = scale * y;
     point.z = scale * z;
     point.r = z > 0 ? 255 : 0;
     point.b = z > 0 ? 0 : 255;
-    cloud.push_back(point);
+    cloud->push_back(point);
   }
-
-  std::vector<double> x, y, z;
-  for (const pcl::PointXYZRGB& point : cloud) {
-    x.push_back(static_cast<double>(point.x));
-    y.push_back(static_cast<double>(point.y));
-    z.push_back(static_cast<double>(point.z));
-  }
-  pcl_gpf::DenoiseInput input;
-  input.x = x.data();
-  input.y = y.data();
-  input.z = z.data();
-  input.size = cloud.size();
-
-  pcl_gpf::ConsolidationParameters parameters;
-  parameters.meshing.rimls.resolution = 80;
-  const pcl_gpf::ConsolidationResult result =
-      pcl_gpf::consolidate(input, parameters, [](const std::string& stage, double fraction) {
-        std::printf("\r%-12s %3.0f %%", stage.c_str(), 100 * fraction);
-        return true; // false would cancel
-      });
-  const pcl::PolygonMesh mesh = toPolygonMesh(result.mesh, cloud);
-
-  std::printf("\nnoise %.4f, %zu triangles, %zu edges at borders, %.2f s\n", result.denoise.scale.noise, mesh.polygons.size(),
-              result.mesh.open_edges, result.seconds.total);
-  return result.mesh.open_edges == 0 && mesh.polygons.size() > 10000 ? 0 : 1;
+  return cloud;
 }
-catch (const std::exception& error) {
+
+int
+main()
+try {
+  pcl_gpf::ConsolidationParameters parameters;
+  parameters.upsample = true; // twice as many points
+  parameters.meshing.rimls.resolution = 80;
+
+  pcl_gpf::Consolidation<pcl::PointXYZRGBNormal> consolidation;
+  consolidation.setInputCloud(noisyBall(10000, 0.005f));
+  consolidation.setParameters(parameters);
+  consolidation.setProgressCallback([](const std::string& stage, double fraction) {
+    std::printf("\r%3.0f %% %-12s", 100 * fraction, stage.c_str());
+    return true; // false would cancel
+  });
+  Cloud clean;
+  pcl::PolygonMesh mesh;
+  consolidation.process(clean, mesh);
+
+  const pcl_gpf::ConsolidationResult& did = consolidation.getStatistics().chain;
+  std::printf("\nnoise %.4f, %zu points, %zu triangles, %zu edges at borders, %.2f s\n", did.denoise.scale.noise, clean.size(),
+              mesh.polygons.size(), did.mesh.open_edges, did.seconds.total);
+  Cloud vertices;
+  pcl::fromPCLPointCloud2(mesh.cloud, vertices);
+  for (const pcl::PointXYZRGBNormal& vertex : vertices)
+    if (std::abs(vertex.z) > 0.1f && (vertex.r == 255) != (vertex.z > 0))
+      return 1; // colours stay where they were
+  return did.mesh.open_edges == 0 && clean.size() == 20000 && mesh.polygons.size() > 10000 ? 0 : 1;
+}
+catch (const pcl::PCLException& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud_flags.h"
 
+#include "scale_parameters.h"
+
 #include <pcl_gpf/core/operators/edge_points.h>
 #include <pcl_gpf/core/operators/local_noise.h>
 #include <pcl_gpf/core/operators/outlier_probability.h>
@@ -50,6 +52,15 @@ noiseOfMoves(double noise, std::vector<float> moves)
   return std::clamp(static_cast<double>(*quartile) / kQuartileOfNormal, noise, kMostUneven * noise);
 }
 
+/** Not where the noise is unknown, nor where the filter moves points of the surface by more than outliers are told by. */
+bool
+tellsOutliers(const DenoiseParameters& p, const CloudScale& scale, std::size_t points)
+{
+  const bool few = p.gpf.support_radius == 0.0 && biasOfFewPoints(scale.spacing, static_cast<double>(points)) >
+                                                      std::max(scale.noise, 0.5 * scale.spacing);
+  return points >= kFewestForNoise && !few;
+}
+
 } // namespace
 
 void
@@ -60,7 +71,9 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
     return;
   const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
   const std::vector<float> moves = lengthsOf(cloud.displacements);
-  if (p.flags.outliers)
+  if (p.flags.outliers && !tellsOutliers(p, scale, packed.rows.size()))
+    cloud.outlier.assign(moves.size(), 0.0f);
+  else if (p.flags.outliers)
     cloud.outlier = outlierProbabilities(
         {noiseOfMoves(scale.noise, moves), scale.spacing, data_radius, p.gpf.outlier_weight, p.number_of_threads}, *packed.index,
         places, moves.data());
@@ -68,10 +81,10 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
     std::vector<float> weights(cloud.outlier.size());
     for (std::size_t k = 0; k < weights.size(); ++k)
       weights[k] = 1.0f - cloud.outlier[k];
-    cloud.sigma = localNoise({data_radius, scale.spacing, p.number_of_threads}, places.view(), cloud.normals.view(), moves.data(),
+    const std::vector<float> local = localNoise({data_radius, scale.spacing, p.number_of_threads}, places.view(), cloud.normals.view(), moves.data(),
                              weights.empty() ? nullptr : weights.data());
-    for (float& sigma : cloud.sigma)
-      sigma = static_cast<float>(packed.frame.lengthToWorld(sigma));
+    for (const float sigma : local)
+      cloud.sigma.push_back(packed.frame.lengthToWorld(static_cast<double>(sigma)));
   }
   if (p.flags.edges) {
     EdgePointsParameters edges;

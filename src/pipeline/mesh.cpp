@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/analysis/nearest_source.h>
 #include <pcl_gpf/core/analysis/orientation_check.h>
+#include <pcl_gpf/core/analysis/surface_extent.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/surface_mesh.h>
 #include <pcl_gpf/pipeline/mesh.h>
@@ -29,6 +30,17 @@ double
 secondsSince(std::chrono::steady_clock::time_point start)
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/** \throws UnsuitableData */
+void
+requireSurface(PointsView points, const char* which)
+{
+  constexpr std::size_t kFewestPoints = 4;
+  if (points.size < kFewestPoints)
+    throw UnsuitableData(std::to_string(points.size) + " " + which + " make no surface; it takes " + std::to_string(kFewestPoints));
+  if (!spansSurface(points))
+    throw UnsuitableData("the " + std::to_string(points.size) + " " + which + " lie on one line or in one place and make no surface");
 }
 
 Samples
@@ -62,6 +74,7 @@ packSamples(const DenoiseInput& input, unsigned threads, MeshResult& result)
     samples.normals.y[i] = packed.normals.y[k];
     samples.normals.z[i] = packed.normals.z[k];
   }
+  requireSurface(samples.points.view(), "points with a normal");
   result.points = kept.size();
   return samples;
 }
@@ -162,8 +175,7 @@ checkMeshable(const DenoiseInput& input, const MeshParameters& parameters)
   validate(parameters.poisson);
   const Packed packed = packPositions(input, false, parameters.number_of_threads);
   const PointsView points = packed.index->sorted();
-  if (points.size < 4)
-    throw UnsuitableData(std::to_string(points.size) + " finite points make no surface");
+  requireSurface(points, "finite points");
   if (parameters.method == MeshMethod::Rimls)
     checkMeshMemory(toLocal(parameters, packed.frame), points);
 }

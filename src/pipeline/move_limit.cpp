@@ -3,8 +3,10 @@
 
 #include "scale_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace pcl_gpf {
 
@@ -12,12 +14,12 @@ namespace {
 
 /** Most noises that a point may move. */
 constexpr double kNoises = 6.0;
-/** Fewest points whose noise can be told (estimateNoise()). */
-constexpr std::size_t kFewestForNoise = 48;
 /** Noise below this share of the spacing is none: the cloud is clean and stays as it is. */
 constexpr double kClean = 0.02;
 /** Where more than this share of the moves is longer than the limit, the noise is uneven and was measured in a quiet part. */
 constexpr double kUneven = 0.1;
+/** Moves beyond this many noises are no longer those of noise alone. */
+constexpr double kNoiseAlone = 1.3;
 
 double
 length(const SoaBuffer& moves, std::size_t k)
@@ -35,6 +37,19 @@ shareOfLonger(double longest, const SoaBuffer& moves)
   return moves.size() > 0 ? static_cast<double>(longer) / static_cast<double>(moves.size()) : 0.0;
 }
 
+/** Standard deviation that half of the moves tell. */
+double
+usualMove(const SoaBuffer& moves)
+{
+  constexpr double kMedianOfNormal = 0.6745;
+  std::vector<double> lengths(moves.size());
+  for (std::size_t k = 0; k < lengths.size(); ++k)
+    lengths[k] = length(moves, k);
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return lengths.empty() ? 0.0 : *middle / kMedianOfNormal;
+}
+
 /** Normalised frame; infinity = no limit. */
 double
 longestMove(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, const SoaBuffer& moves)
@@ -43,8 +58,12 @@ longestMove(const DenoiseParameters& wanted, double noise, double spacing, const
   if (wanted.max_move > 0.0)
     return frame.lengthToLocal(wanted.max_move);
   const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.support_radius == 0.0;
-  if (!estimated || moves.size() < kFewestForNoise)
+  if (!estimated)
     return kNoLimit;
+  const double points = static_cast<double>(moves.size()) / wanted.gpf.sample_ratio;
+  if (points < static_cast<double>(kFewestForNoise) ||
+      (noise < biasOfFewPoints(spacing, points) && usualMove(moves) > kNoiseAlone * noise))
+    return 0.0; // more harm than good
   const double limit = kNoises * noise;
   return noise > kClean * spacing && shareOfLonger(limit, moves) > kUneven ? kNoLimit : limit;
 }
@@ -74,7 +93,9 @@ originOf(const DenoiseParameters& wanted, double limit)
     return {"max_move", limit, "user", ""};
   if (std::isinf(limit))
     return {"max_move", limit, "default",
-            "no limit where the radius is given, in the paper's recursion, and where noise is uneven or cannot be told"};
+            "no limit where the radius is given, in the paper's recursion, and where noise is uneven"};
+  if (limit == 0.0)
+    return {"max_move", limit, "estimated", "no noise, or too few points to tell it from the shape"};
   return {"max_move", limit, "estimated", "6 x noise" + strengthNote(wanted.strength)};
 }
 

@@ -17,40 +17,6 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kPointsPerTask = 16384;
-/** Extent in units of that of the dense part beyond which squared distances between neighbours are no longer floats. */
-constexpr double kWidestExtent = 1e15;
-
-/** Whether the rows inside the box are more than copies of one point. */
-bool
-holdsDifferentPoints(const DenoiseInput& input, const std::vector<std::uint32_t>& rows, const BoundingBox& box)
-{
-  BoundingBox inside;
-  for (const std::uint32_t row : rows) {
-    const double p[3] = {input.x[row], input.y[row], input.z[row]};
-    bool within = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      within = within && p[axis] >= box.min[axis] && p[axis] <= box.max[axis];
-    if (within)
-      inside.add(p[0], p[1], p[2]);
-  }
-  return inside.diagonal() > 0.0;
-}
-
-/** Row of the input that lies furthest from the dense part, as text. */
-std::string
-furthestRow(const DenoiseInput& input, const std::vector<std::uint32_t>& rows, const std::array<double, 3>& from)
-{
-  std::uint32_t furthest = rows.front();
-  double distance = -1.0;
-  for (const std::uint32_t row : rows) {
-    const double d = std::hypot(input.x[row] - from[0], input.y[row] - from[1], input.z[row] - from[2]);
-    if (d > distance) {
-      distance = d;
-      furthest = row;
-    }
-  }
-  return std::to_string(furthest);
-}
 
 /** Ascending finite rows and the frame of their box. \throws UnsuitableData */
 std::vector<std::uint32_t>
@@ -73,11 +39,11 @@ finiteRows(const DenoiseInput& input, LocalFrame& frame)
   if (!std::isfinite(box.diagonal()))
     throw UnsuitableData("the extent of the points is beyond the range of double");
   const double* columns[3] = {input.x, input.y, input.z};
-  const BoundingBox dense = denseBox(box, rows.size(), [&](std::size_t k, std::size_t axis) { return columns[axis][rows[k]]; });
+  const auto coordinate = [&](std::size_t k, std::size_t axis) { return columns[axis][rows[k]]; };
+  const BoundingBox dense = denseBox(box, rows.size(), coordinate);
+  refuseFarPoint(box, dense, rows.size(), coordinate,
+                 [&rows](std::size_t k) { return "row " + std::to_string(rows[k]) + " (counted from 0)"; });
   frame = localFrame(box, dense);
-  if (box.diagonal() > kWidestExtent * dense.diagonal() && holdsDifferentPoints(input, rows, dense))
-    throw UnsuitableData("row " + furthestRow(input, rows, frame.origin) + " (counted from 0) lies so far away that the other points " +
-                         "cannot be told apart; remove it, or write NaN where a coordinate is invalid");
   return rows;
 }
 

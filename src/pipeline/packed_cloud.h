@@ -27,8 +27,9 @@ struct Packed {
 struct FilteredCloud {
   SoaBuffer displacements, normals;
   std::vector<std::uint8_t> isolated;
-  std::vector<std::uint8_t> fine;    ///< 1 = of the fine scale; empty where there is one scale
-  std::vector<float> outlier, sigma; ///< empty where not wanted
+  std::vector<std::uint8_t> fine; ///< 1 = of the fine scale; empty where there is one scale
+  std::vector<float> outlier;     ///< empty where not wanted
+  std::vector<double> sigma;      ///< cloud units; empty where not wanted
   std::vector<std::uint8_t> edge;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 namespace pcl_gpf {
@@ -14,6 +15,12 @@ constexpr unsigned kFineRounds = 3;
 constexpr double kFineAngle = 25.0;
 
 } // namespace
+
+double
+biasOfFewPoints(double spacing, double points)
+{
+  return 1800.0 * spacing / (points * std::sqrt(points));
+}
 
 DenoiseParameters
 parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,

@@ -131,7 +131,26 @@ factorOf(const EdgeAwareUpsamplingParameters& p, std::size_t input, double spaci
   return static_cast<double>(targetCount(p, input)) / static_cast<double>(input);
 }
 
+/** What can be refused before the work. */
+void
+requireRoomToFill(const Packed& packed, const EdgeAwareUpsamplingParameters& parameters)
+{
+  const std::size_t count = packed.rows.size();
+  if (count < 3)
+    throw UnsuitableData(std::to_string(count) + " finite points make no surface to fill; it takes 3");
+  if (!spansSurface(packed.index->sorted()))
+    throw UnsuitableData("the " + std::to_string(count) + " finite points lie on one line; there is no surface to fill");
+  targetCount(parameters, count);
+}
+
 } // namespace
+
+void
+checkUpsamplable(const DenoiseInput& input, const UpsampleParameters& parameters)
+{
+  validate(parameters.edge_aware);
+  requireRoomToFill(packPositions(input, false, parameters.edge_aware.number_of_threads), parameters.edge_aware);
+}
 
 UpsampleResult
 upsample(const DenoiseInput& input, const UpsampleParameters& parameters, const StageProgress& progress)
@@ -141,10 +160,7 @@ upsample(const DenoiseInput& input, const UpsampleParameters& parameters, const 
   UpsampleResult result;
   Packed packed = packPositions(input, false, parameters.edge_aware.number_of_threads);
   result.non_finite_points = input.size - packed.rows.size();
-  if (!spansSurface(packed.index->sorted()))
-    throw UnsuitableData("the " + std::to_string(packed.rows.size()) +
-                         " finite points lie on one line, or are fewer than 3; there is no surface to fill");
-  targetCount(parameters.edge_aware, packed.rows.size()); // asked now, before the work
+  requireRoomToFill(packed, parameters.edge_aware);
   result.spacing = packed.frame.lengthToWorld(estimateSpacing(*packed.index, parameters.edge_aware.number_of_threads));
   completeNormals(input, packed, parameters.edge_aware.number_of_threads, progress, result);
   result.seconds_normals = secondsSince(start);

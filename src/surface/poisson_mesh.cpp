@@ -2,7 +2,6 @@
 #include <pcl_gpf/common/abi_check.h>
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/errors.h>
-#include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/surface/poisson_mesh.h>
 
@@ -11,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,49 +55,6 @@ reconstruct(const PoissonMeshParameters& p, PointsView points, NormalsView norma
   poisson.reconstruct(vertices, polygons);
 }
 
-/** Whether each vertex is within the distance of a point. */
-std::vector<std::uint8_t>
-nearPoints(const SoaBuffer& vertices, const PointIndex& index, double distance, unsigned threads)
-{
-  std::vector<std::uint8_t> near(vertices.size());
-  parallelBlocks(vertices.size(), 4096, resolveThreads(threads), [&](std::size_t begin, std::size_t end) {
-    std::vector<float> distances_sq;
-    for (std::size_t i = begin; i < end; ++i) {
-      index.tree().nearest(index.sorted(), {vertices.x[i], vertices.y[i], vertices.z[i]}, 1, distances_sq);
-      near[i] = std::sqrt(distances_sq.front()) <= distance;
-    }
-  });
-  return near;
-}
-
-/** Drops triangles with a vertex that is not kept, and vertices without triangles. */
-void
-keepOnly(SurfaceMesh& mesh, const std::vector<std::uint8_t>& kept)
-{
-  constexpr std::uint32_t kUnused = 0xffffffffu;
-  std::vector<std::uint32_t> triangles, place(mesh.vertexCount(), kUnused), order;
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    const std::uint32_t* v = mesh.triangles.data() + t;
-    if (!kept[v[0]] || !kept[v[1]] || !kept[v[2]] || v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
-      continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (place[v[k]] == kUnused) {
-        place[v[k]] = static_cast<std::uint32_t>(order.size());
-        order.push_back(v[k]);
-      }
-      triangles.push_back(place[v[k]]);
-    }
-  }
-  SoaBuffer vertices(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    vertices.x[i] = mesh.vertices.x[order[i]];
-    vertices.y[i] = mesh.vertices.y[order[i]];
-    vertices.z[i] = mesh.vertices.z[order[i]];
-  }
-  mesh.vertices = std::move(vertices);
-  mesh.triangles = std::move(triangles);
-}
-
 /** Turns all faces if most of them look against the normal of the nearest point. */
 void
 orientFaces(SurfaceMesh& mesh, const PointIndex& index, NormalsView normals)
@@ -111,6 +68,8 @@ orientFaces(SurfaceMesh& mesh, const PointIndex& index, NormalsView normals)
   for (std::size_t i = 0; i < mesh.vertexCount(); i += stride) {
     index.tree().nearest(index.sorted(), {mesh.vertices.x[i], mesh.vertices.y[i], mesh.vertices.z[i]}, 1, distances_sq,
                          &found);
+    if (found.empty())
+      continue;
     const std::uint32_t source = index.order()[found.front()];
     along += mesh.normals.x[i] * normals.x[source] + mesh.normals.y[i] * normals.y[source] +
              mesh.normals.z[i] * normals.z[source];
@@ -151,24 +110,17 @@ meshPoisson(const PoissonMeshParameters& parameters, PointsView points, NormalsV
 
   SurfaceMesh mesh;
   mesh.vertices = SoaBuffer(vertices.size());
-  std::vector<std::uint8_t> kept(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     mesh.vertices.x[i] = vertices[i].x;
     mesh.vertices.y[i] = vertices[i].y;
     mesh.vertices.z[i] = vertices[i].z;
-    kept[i] = std::isfinite(vertices[i].x) && std::isfinite(vertices[i].y) && std::isfinite(vertices[i].z);
   }
   for (const pcl::Vertices& polygon : polygons)
     for (std::size_t k = 2; k < polygon.vertices.size(); ++k)
       for (const std::size_t corner : {std::size_t{0}, k - 1, k})
         mesh.triangles.push_back(static_cast<std::uint32_t>(polygon.vertices[corner]));
-  if (parameters.trim > 0.0) {
-    const std::vector<std::uint8_t> near =
-        nearPoints(mesh.vertices, index, parameters.trim * spacing, number_of_threads);
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      kept[i] = kept[i] && near[i];
-  }
-  keepOnly(mesh, kept);
+  trimMesh(mesh, index, parameters.trim > 0.0 ? parameters.trim * spacing : std::numeric_limits<double>::infinity(),
+           number_of_threads);
   removeSmallComponents(mesh, parameters.smallest_component);
   orientFaces(mesh, index, normals);
   return mesh;

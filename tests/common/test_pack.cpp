@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
+#include <string>
 
 namespace pcl_gpf::test {
 namespace {
@@ -34,6 +36,25 @@ TEST(Pack, FrameHasItsBoxCentredAndOfDiagonalOne)
   for (std::size_t axis = 0; axis < 3; ++axis)
     EXPECT_NEAR(box.min[axis] + box.max[axis], 0, 1e-6);
   EXPECT_FALSE(packed.all_identical);
+}
+
+TEST(Pack, RefusesAPointBesideWhichNothingCanBeToldApart)
+{
+  const Cloud::Ptr cloud = toCloud<PointT>(cube(1000));
+  for (const float far : {1e16f, 1e30f, std::numeric_limits<float>::max()}) {
+    (*cloud)[77].y = far;
+    try {
+      pack(*cloud, everyIndex(*cloud));
+      ADD_FAILURE() << far;
+    } catch (const UnsuitableData& error) {
+      EXPECT_NE(std::string(error.what()).find("point 77 "), std::string::npos) << error.what();
+    }
+  }
+  pcl::Indices others = everyIndex(*cloud);
+  others.erase(others.begin() + 77);
+  EXPECT_EQ(pack(*cloud, others).size(), 999u);
+  (*cloud)[77].y = 1e12f; // an outlier, no more
+  EXPECT_EQ(pack(*cloud, everyIndex(*cloud)).size(), 1000u);
 }
 
 TEST(Pack, PositionAndRemainderGiveTheCloudBack)

@@ -191,6 +191,27 @@ TEST(MarchingCubes, refuseWhatCannotBe)
   EXPECT_THROW(extractSurface(cells(0.02), function, seeds.view(), [](double fraction) { return fraction < 0.3; }), Cancelled);
 }
 
+TEST(MeshTrim, removesWhatIsFarFromAllPointsOrNotFinite)
+{
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const SoaBuffer corners = toBuffer({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.1, 0.1, 0}});
+  const PointIndex points(corners.view());
+  const auto trimmed = [&points](double distance) {
+    SurfaceMesh mesh;
+    mesh.vertices = toBuffer(
+        {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {kNotDefined, 0, 0}, {0, kInfinity, 0}, {0.3, 0, 0}, {1e30, 0, 0}, {0.1, 0.1, 0}});
+    mesh.triangles = {0, 1, 2, 1, 3, 2, 1, 4, 2, 1, 5, 2, 1, 6, 2, 1, 1, 2, 1, 7, 2};
+    trimMesh(mesh, points, distance);
+    return mesh;
+  };
+  const SurfaceMesh near = trimmed(0.1), finite = trimmed(kInfinity);
+  EXPECT_EQ(near.triangles, (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2}));
+  ASSERT_EQ(near.vertexCount(), 4u);
+  EXPECT_EQ(near.vertices.y[3], 0.1f);
+  EXPECT_EQ(finite.triangleCount(), 4u);
+  EXPECT_EQ(finite.vertexCount(), 6u);
+}
+
 TEST(MarchingCubes, progressRisesToOne)
 {
   const SoaBuffer seeds = toBuffer({{0.5, 0, 0}});

@@ -19,6 +19,9 @@ set(cases
   "src/core/kernels/k.cpp -> #include <hwy/highway.h> -> "
   "src/common/p.cpp -> void p() { std::cout << 1@ } -> common/p.cpp: the library must not print"
   "src/common/q.cpp -> int q() { return snprintf(nullptr, 0, \"\")@ } -> "
+  "src/core/order.cpp -> auto o = std::partition(a, b, c)@ -> core/order.cpp: depends on the standard library"
+  "src/core/stable.cpp -> auto o = std::stable_partition(a, b, c)@ -> "
+  "src/core/draw.cpp -> std::normal_distribution<double> d@ -> core/draw.cpp: depends on the standard library"
   "tools/t.cpp -> #include \"core/private.h\" -> a tool must not include the private"
   "CMakeLists.txt -> add_compile_options(-march=native) -> no instruction set and no fast-math")
 foreach(case IN LISTS cases)

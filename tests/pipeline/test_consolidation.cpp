@@ -1,195 +1,270 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chain is its stages one after the other: same bits, rows of the input, one frame.
-#include "support/implicit_shapes.h"
-#include "support/shapes.h"
+// The class is consolidate() on PCL's clouds: same numbers, all other fields of the parents, PCL's manners.
+#include "support/clouds.h"
 
-#include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/pipeline/consolidation.h>
-#include <pcl_gpf/pipeline/orient.h>
+
+#include <pcl/conversions.h>
+#include <pcl/exceptions.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
+#include <vector>
 
 namespace pcl_gpf::test {
 namespace {
 
-constexpr double kNoise = 0.003; ///< standard deviation
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/** A noisy sphere of radius 1 / 2 far from the origin, with two rows that are not finite. */
-struct Cloud {
-  explicit Cloud(std::size_t count = 4000)
-  {
-    const Shape shape = sphere(count, kNoise);
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-      x.push_back(shape.points[i][0] + kOffset[0]);
-      y.push_back(shape.points[i][1] + kOffset[1]);
-      z.push_back(shape.points[i][2] + kOffset[2]);
-      nx.push_back(static_cast<float>(shape.normals[i][0]));
-      ny.push_back(static_cast<float>(shape.normals[i][1]));
-      nz.push_back(static_cast<float>(shape.normals[i][2]));
-    }
-    if (count > 100)
-      x[7] = y[90] = kNaN;
-  }
-  DenoiseInput
-  input(bool normals = false) const
-  {
-    return normals ? DenoiseInput{x.data(), y.data(), z.data(), x.size(), nx.data(), ny.data(), nz.data()}
-                   : DenoiseInput{x.data(), y.data(), z.data(), x.size()};
-  }
-  static double radius(double px, double py, double pz) { return std::hypot(px - kOffset[0], py - kOffset[1], pz - kOffset[2]); }
-
-  static constexpr double kOffset[3] = {691000, 5335000, 500};
-  std::vector<double> x, y, z;
-  std::vector<float> nx, ny, nz;
-};
+template <typename PointT>
+typename pcl::PointCloud<PointT>::Ptr
+noisySphere(std::size_t count = 1500)
+{
+  const auto cloud = toCloud<PointT>(sphere(count, 0.003));
+  for (PointT& point : *cloud)
+    point.normal_x = point.normal_y = point.normal_z = 0.0f; // to be estimated
+  return cloud;
+}
 
 ConsolidationParameters
 allStages()
 {
   ConsolidationParameters p;
   p.upsample = true;
-  p.meshing.rimls.resolution = 40;
+  p.meshing.rimls.resolution = 30;
   return p;
 }
 
-TEST(Consolidate, equalsItsStagesOneAfterTheOther)
+template <typename PointT>
+ConsolidationResult
+byFunction(const pcl::PointCloud<PointT>& cloud, const ConsolidationParameters& parameters)
 {
-  const Cloud cloud;
-  ConsolidationParameters p = allStages();
-  p.upsample = false;
-  const ConsolidationResult result = consolidate(cloud.input(), p);
-
-  DenoiseResult filtered = denoise(cloud.input(), p.denoise);
-  const OrientResult oriented = orientCloud({filtered.x.data(), filtered.y.data(), filtered.z.data(), filtered.x.size(),
-                                             filtered.normal_x.data(), filtered.normal_y.data(), filtered.normal_z.data()}, {});
-  MeshParameters meshing = p.meshing;
-  meshing.orientation = MeshOrientation::Keep;
-  const MeshResult mesh = meshCloud({filtered.x.data(), filtered.y.data(), filtered.z.data(), filtered.x.size(),
-                                     oriented.normal_x.data(), oriented.normal_y.data(), oriented.normal_z.data()}, meshing);
-  EXPECT_EQ(result.points.x, filtered.x);
-  EXPECT_EQ(result.points.source_rows, filtered.sample_indices);
-  EXPECT_EQ(result.points.normal_z, oriented.normal_z);
-  EXPECT_EQ(result.mesh.vertices, mesh.vertices);
-  EXPECT_EQ(result.mesh.triangles, mesh.triangles);
-  ASSERT_EQ(result.mesh.source_rows.size(), mesh.source_rows.size());
-  for (std::size_t v = 0; v < mesh.source_rows.size(); ++v)
-    ASSERT_EQ(result.mesh.source_rows[v], filtered.sample_indices[mesh.source_rows[v]]);
-  EXPECT_EQ(result.non_finite_points, 2u);
-  EXPECT_EQ(result.estimated_normals, 3998u);
-  EXPECT_EQ(result.upsampled.size(), 0u);
-}
-
-TEST(Consolidate, upsamplesAndMeshesASphereThatIsClosedAndOutward)
-{
-  const Cloud cloud;
-  const ConsolidationResult result = consolidate(cloud.input(), allStages());
-  EXPECT_EQ(result.upsampled.size(), 2 * result.points.size());
-  EXPECT_TRUE(std::equal(result.points.x.begin(), result.points.x.end(), result.upsampled.x.begin()));
-  EXPECT_EQ(result.mesh.points, result.upsampled.size());
-  EXPECT_EQ(result.mesh.open_edges, 0u);
-  EXPECT_EQ(result.mesh.components, 1u);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < result.points.size(); ++i)
-    squares += std::pow(Cloud::radius(result.points.x[i], result.points.y[i], result.points.z[i]) - 0.5, 2);
-  EXPECT_LT(std::sqrt(squares / static_cast<double>(result.points.size())), 0.5 * kNoise);
-  for (std::size_t v = 0; v < result.mesh.source_rows.size(); ++v) {
-    const double* p = &result.mesh.vertices[3 * v];
-    ASSERT_NEAR(Cloud::radius(p[0], p[1], p[2]), 0.5, 0.5 * result.mesh.rimls.cell_size);
-    ASSERT_GT((p[0] - Cloud::kOffset[0]) * static_cast<double>(result.mesh.normals[3 * v]) +
-                  (p[1] - Cloud::kOffset[1]) * static_cast<double>(result.mesh.normals[3 * v + 1]) +
-                  (p[2] - Cloud::kOffset[2]) * static_cast<double>(result.mesh.normals[3 * v + 2]),
-              0.4);
-    const std::uint32_t row = result.mesh.source_rows[v];
-    ASSERT_LT(std::hypot(cloud.x[row] - p[0], cloud.y[row] - p[1], cloud.z[row] - p[2]), 0.1);
+  std::vector<double> x, y, z;
+  for (const PointT& point : cloud) {
+    x.push_back(static_cast<double>(point.x));
+    y.push_back(static_cast<double>(point.y));
+    z.push_back(static_cast<double>(point.z));
   }
+  return consolidate({x.data(), y.data(), z.data(), x.size()}, parameters);
 }
 
-TEST(Consolidate, stagesThatAreNotChosenLeaveTheInputAlone)
+/** Point k of a result: the numbers of the function in float, everything else of the parent. */
+template <typename PointT>
+void
+expectPoint(const PointT& point, const double* position, const float* normal, std::uint32_t row, int parent)
 {
-  const Cloud cloud;
-  ConsolidationParameters p = allStages();
-  p.filter = p.upsample = p.orient = false;
-  const ConsolidationResult meshed = consolidate(cloud.input(true), p);
-  EXPECT_EQ(meshed.points.size(), 3998u);
-  for (std::size_t i = 0; i < meshed.points.size(); ++i) {
-    ASSERT_EQ(meshed.points.x[i], cloud.x[meshed.points.source_rows[i]]);
-    ASSERT_EQ(meshed.points.normal_y[i], cloud.ny[meshed.points.source_rows[i]]);
+  ASSERT_EQ(parent, static_cast<int>(row));
+  ASSERT_EQ(numberOf(point), parent) << "colour, intensity, curvature are those of one input point";
+  ASSERT_EQ(point.x, static_cast<float>(position[0]));
+  ASSERT_EQ(point.y, static_cast<float>(position[1]));
+  ASSERT_EQ(point.z, static_cast<float>(position[2]));
+  ASSERT_EQ(point.normal_x, normal[0]);
+  ASSERT_EQ(point.normal_y, normal[1]);
+  ASSERT_EQ(point.normal_z, normal[2]);
+}
+
+template <typename PointT>
+class ConsolidationClass : public ::testing::Test {};
+
+using PointTypes = ::testing::Types<pcl::PointNormal, pcl::PointXYZRGBNormal, pcl::PointXYZINormal>;
+TYPED_TEST_SUITE(ConsolidationClass, PointTypes);
+
+TYPED_TEST(ConsolidationClass, equalsTheFunctionAndKeepsTheFieldsOfParents)
+{
+  const auto cloud = noisySphere<TypeParam>();
+  (*cloud)[7].y = kNaN;
+  cloud->header.frame_id = "scanner";
+  cloud->sensor_orientation_ = Eigen::Quaternionf(0, 1, 0, 0);
+  Consolidation<TypeParam> consolidation;
+  consolidation.setInputCloud(cloud);
+  consolidation.setParameters(allStages());
+  pcl::PointCloud<TypeParam> output, vertices;
+  pcl::PolygonMesh mesh;
+  consolidation.process(output, mesh);
+  pcl::fromPCLPointCloud2(mesh.cloud, vertices);
+  const ConsolidationResult expected = byFunction(*cloud, allStages());
+
+  ASSERT_EQ(output.size(), 2u * 1499u);
+  EXPECT_EQ(output.height, 1u);
+  EXPECT_TRUE(output.is_dense);
+  EXPECT_EQ(output.header.frame_id, "scanner");
+  EXPECT_EQ(mesh.header.frame_id, "scanner");
+  EXPECT_EQ(output.sensor_orientation_.x(), 1.0f);
+  const ConsolidatedCloud& dense = expected.upsampled;
+  ASSERT_EQ(dense.size(), output.size());
+  ASSERT_EQ(consolidation.getCorrespondingIndices().size(), output.size());
+  for (std::size_t i = 0; i < output.size(); ++i) {
+    const double position[3] = {dense.x[i], dense.y[i], dense.z[i]};
+    const float normal[3] = {dense.normal_x[i], dense.normal_y[i], dense.normal_z[i]};
+    expectPoint(output[i], position, normal, dense.source_rows[i], consolidation.getCorrespondingIndices()[i]);
   }
-  EXPECT_EQ(meshed.estimated_normals, 0u);
-
-  p = ConsolidationParameters();
-  p.filter = p.orient = p.mesh = false;
-  p.normals = true;
-  const ConsolidationResult normals = consolidate(cloud.input(true), p);
-  EXPECT_EQ(normals.points.x, meshed.points.x);
-  EXPECT_EQ(normals.estimated_normals, 3998u);
-  EXPECT_NE(normals.points.normal_x, meshed.points.normal_x);
-  EXPECT_TRUE(normals.mesh.triangles.empty());
+  ASSERT_EQ(vertices.size(), expected.mesh.source_rows.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    expectPoint(vertices[v], &expected.mesh.vertices[3 * v], &expected.mesh.normals[3 * v], expected.mesh.source_rows[v],
+                consolidation.getMeshCorrespondingIndices()[v]);
+  ASSERT_EQ(3 * mesh.polygons.size(), expected.mesh.triangles.size());
+  for (std::size_t corner = 0; corner < expected.mesh.triangles.size(); ++corner)
+    ASSERT_EQ(mesh.polygons[corner / 3].vertices[corner % 3], static_cast<pcl::index_t>(expected.mesh.triangles[corner]));
+  const ConsolidationStatistics& did = consolidation.getStatistics();
+  EXPECT_EQ(did.input_points, 1499u);
+  EXPECT_EQ(did.chain.denoise.scale.noise, expected.denoise.scale.noise);
+  EXPECT_EQ(did.chain.mesh.open_edges, 0u);
+  EXPECT_GT(did.chain.seconds.total, 0.0);
+  EXPECT_TRUE(did.chain.mesh.vertices.empty() && did.chain.points.x.empty());
 }
 
-TEST(Consolidate, tellsEveryStageAndCanBeCancelledInEach)
+using Cloud = pcl::PointCloud<pcl::PointXYZINormal>;
+using Class = Consolidation<pcl::PointXYZINormal>;
+
+TEST(Consolidation, withoutAMeshAskedForThatStageDoesNotRunAndTheOutputMayBeTheInput)
 {
-  const Cloud cloud(1000);
-  std::vector<std::string> stages;
-  consolidate(cloud.input(), allStages(), [&](const std::string& stage, double fraction) {
-    EXPECT_TRUE(fraction >= 0.0 && fraction <= 1.0);
-    if (stages.empty() || stages.back() != stage)
-      stages.push_back(stage);
+  const Cloud::Ptr cloud = noisySphere<pcl::PointXYZINormal>(500);
+  Class consolidation;
+  consolidation.setInputCloud(cloud);
+  double whole = 0.0;
+  consolidation.setProgressCallback([&whole](const std::string& stage, double fraction) {
+    EXPECT_NE(stage, "mesh");
+    EXPECT_GE(fraction, whole);
+    whole = fraction;
     return true;
   });
+  Cloud output;
+  consolidation.process(output);
+  EXPECT_EQ(whole, 1.0);
+  whole = 0.0;
+  consolidation.process(*cloud);
+  EXPECT_EQ(output.size(), 500u);
+  EXPECT_TRUE(sameBits(*cloud, output));
+}
+
+TEST(Consolidation, indicesChooseTheData)
+{
+  const Cloud::Ptr cloud = noisySphere<pcl::PointXYZINormal>(600);
+  pcl::IndicesPtr indices(new pcl::Indices);
+  for (int i = 599; i > 200; --i)
+    indices->push_back(i);
+  indices->push_back(300); // twice
+  Class consolidation;
+  consolidation.setInputCloud(cloud);
+  consolidation.setIndices(indices);
+  Cloud output, expected;
+  consolidation.process(output);
+  ASSERT_EQ(output.size(), 399u);
+  for (std::size_t i = 0; i < output.size(); ++i)
+    ASSERT_EQ(numberOf(output[i]), 599 - static_cast<int>(i));
+  indices->pop_back();
+  const Cloud::Ptr part(new Cloud(*cloud, *indices));
+  Class whole;
+  whole.setInputCloud(part);
+  whole.process(expected);
+  EXPECT_TRUE(sameBits(output, expected));
+  indices->push_back(600);
+  EXPECT_THROW(consolidation.process(output), pcl::BadArgumentException);
+  EXPECT_TRUE(output.empty());
+}
+
+TEST(Consolidation, partsFaceTheSensorWhereThereIsOne)
+{
+  const Cloud::Ptr cloud = toCloud<pcl::PointXYZINormal>(plane(500, 0.002));
+  cloud->sensor_origin_ = Eigen::Vector4f(0, 0, -5, 0);
+  Class consolidation;
+  consolidation.setInputCloud(cloud);
+  const auto side = [&] {
+    Cloud output;
+    consolidation.process(output);
+    float sum = 0;
+    for (const pcl::PointXYZINormal& point : output)
+      sum += point.normal_z;
+    return sum / static_cast<float>(output.size());
+  };
+  EXPECT_LT(side(), -0.9f);
+  consolidation.setUseSensorOrigin(false);
+  EXPECT_GT(side(), 0.9f);
+  ConsolidationParameters p;
+  p.viewpoint = {{0.0, 0.0, -3.0}};
+  consolidation.setParameters(p);
+  EXPECT_LT(side(), -0.9f);
+}
+
+TEST(Consolidation, cancelledInAnyStageItLeavesNothingStale)
+{
+  const Cloud::Ptr cloud = noisySphere<pcl::PointXYZINormal>(500);
+  const Cloud before = *cloud;
+  Class consolidation;
+  consolidation.setInputCloud(cloud);
+  consolidation.setParameters(allStages());
+  Cloud output;
+  pcl::PolygonMesh mesh;
+  consolidation.process(output, mesh);
+  const Cloud whole = output;
+  const std::size_t triangles = mesh.polygons.size();
   for (const char* stage : {"normals", "bilateral", "filter", "orient", "upsampling", "mesh"}) {
-    EXPECT_EQ(std::count(stages.begin(), stages.end(), stage), 1) << stage;
-    EXPECT_THROW(consolidate(cloud.input(), allStages(), [&](const std::string& name, double) { return name != stage; }), Cancelled) << stage;
+    consolidation.setProgressCallback([stage](const std::string& name, double) { return name != stage; });
+    consolidation.process(output, mesh);
+    EXPECT_TRUE(output.empty() && mesh.polygons.empty() && mesh.cloud.data.empty()) << stage;
+    EXPECT_TRUE(consolidation.getCorrespondingIndices().empty() && consolidation.getMeshCorrespondingIndices().empty());
+    EXPECT_TRUE(consolidation.getStatistics().cancelled);
+    consolidation.process(*cloud, mesh);
+    EXPECT_TRUE(sameBits(*cloud, before)) << "the caller's own points are not thrown away";
   }
+  consolidation.setProgressCallback({});
+  consolidation.process(output, mesh);
+  EXPECT_TRUE(sameBits(output, whole));
+  EXPECT_EQ(mesh.polygons.size(), triangles);
+  EXPECT_FALSE(consolidation.getStatistics().cancelled);
 }
 
-TEST(Consolidate, doesNotDependOnTheNumberOfThreads)
+TEST(Consolidation, refusesBadInputAndEmptiesTheOutputs)
 {
-  const Cloud cloud(2000);
-  ConsolidationParameters one = allStages(), four = allStages();
-  one.number_of_threads = 1;
-  four.number_of_threads = 4;
-  const ConsolidationResult a = consolidate(cloud.input(), one), b = consolidate(cloud.input(), four);
-  EXPECT_EQ(a.upsampled.x, b.upsampled.x);
-  EXPECT_EQ(a.mesh.vertices, b.mesh.vertices);
-  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
-}
-
-TEST(Consolidate, refusesBeforeTheWork)
-{
-  const Cloud cloud;
-  bool worked = false;
-  const StageProgress watch = [&worked](const std::string&, double) { return worked = true; };
-  ConsolidationParameters none = allStages(), fine = allStages(), few = allStages(), blind = allStages(), range = allStages();
-  none.filter = none.orient = none.upsample = none.mesh = false;
+  Cloud output;
+  pcl::PolygonMesh mesh;
+  const auto run = [&](const Cloud& cloud, const ConsolidationParameters& parameters) {
+    Class consolidation;
+    consolidation.setInputCloud(cloud.makeShared());
+    consolidation.setParameters(parameters);
+    output = *noisySphere<pcl::PointXYZINormal>(10);
+    mesh.polygons.resize(5);
+    consolidation.process(output, mesh);
+  };
+  const auto refused = [&](const Cloud& cloud, const ConsolidationParameters& parameters, const std::string& figure) {
+    std::string message;
+    try {
+      run(cloud, parameters);
+    } catch (const pcl::ComputeFailedException& error) {
+      message = error.what();
+    } catch (const pcl::BadArgumentException& error) {
+      message = error.what();
+    }
+    EXPECT_NE(message.find(figure), std::string::npos) << "'" << message << "' names " << figure;
+    EXPECT_TRUE(output.empty() && mesh.polygons.empty());
+  };
+  const Cloud good = *noisySphere<pcl::PointXYZINormal>(400);
+  ConsolidationParameters fine = allStages(), few = allStages(), blind = allStages(), none = allStages();
   fine.meshing.rimls.resolution = 60000;
   few.upsampling.edge_aware.target_count = 100;
   blind.filter = blind.orient = blind.upsample = false;
-  range.denoise.bilateral.angle = -1;
-  EXPECT_THROW(consolidate(cloud.input(), none, watch), InvalidParameter);
-  EXPECT_THROW(consolidate(cloud.input(), fine, watch), ExcessiveWork);
-  EXPECT_THROW(consolidate(cloud.input(), few, watch), InvalidParameter);
-  EXPECT_THROW(consolidate(cloud.input(), blind, watch), InvalidParameter);
-  EXPECT_THROW(consolidate(cloud.input(), range, watch), InvalidParameter);
-  range = allStages();
-  range.viewpoint = {{0, kNaN, 0}};
-  EXPECT_THROW(consolidate(cloud.input(), range, watch), InvalidParameter);
-  for (const std::size_t count : {0u, 1u, 2u, 3u}) {
-    const Cloud small(count);
-    EXPECT_THROW(consolidate(small.input(), allStages(), watch), UnsuitableData) << count;
+  none.filter = none.orient = none.upsample = none.mesh = false;
+  refused(good, fine, "GiB");
+  refused(good, few, "400");
+  refused(good, blind, "no normals");
+  refused(good, none, "stage");
+  refused(*noisySphere<pcl::PointXYZINormal>(2), allStages(), "2 finite points");
+  Cloud same = good, line = good, nowhere = good;
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    same[i].x = same[i].y = same[i].z = 1.0f;
+    line[i].x = line[i].y = static_cast<float>(i);
+    line[i].z = 3.0f;
+    nowhere[i].z = kNaN;
   }
-  Cloud same(50);
-  std::fill(same.x.begin(), same.x.end(), 1.0);
-  std::fill(same.y.begin(), same.y.end(), 2.0);
-  std::fill(same.z.begin(), same.z.end(), 3.0);
-  EXPECT_THROW(consolidate(same.input(), allStages(), watch), UnsuitableData);
-  EXPECT_FALSE(worked);
+  refused(same, allStages(), "identical");
+  refused(line, allStages(), "400 finite points lie on one line");
+  refused(nowhere, allStages(), ""); // a warning
+  refused(Cloud(), allStages(), "");
+
+  Class unset;
+  mesh.polygons.resize(5);
+  output = good;
+  unset.process(output, mesh);
+  EXPECT_TRUE(output.empty() && mesh.polygons.empty());
 }
 
 } // namespace

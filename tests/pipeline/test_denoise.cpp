@@ -225,7 +225,7 @@ TEST(Denoise, noMoveIsLongerThanTheLimit)
   }
 }
 
-TEST(Denoise, unevenOrUnknownNoiseLimitsNoMove)
+TEST(Denoise, unevenNoiseLimitsNoMove)
 {
   std::vector<Vector3> points = plane(20000, 0, 5).points;
   SplitMix64 random(6);
@@ -235,13 +235,47 @@ TEST(Denoise, unevenOrUnknownNoiseLimitsNoMove)
   for (const Vector3& p : points)
     uneven.add(p);
   EXPECT_TRUE(std::isinf(denoise(uneven.input(), {}).max_move));
-  const Cloud few(plane(40, 0.05, 1));
-  const DenoiseResult result = denoise(few.input(), {});
-  EXPECT_TRUE(std::isinf(result.max_move));
-  double moved = 0;
-  for (std::size_t i = 0; i < few.size(); ++i)
-    moved += std::abs(result.z[i] - few.z[i]);
-  EXPECT_GT(moved, 0.0);
+}
+
+/** Mean distance of a result, or of the input itself, from the surface of its shape. */
+double
+meanError(const std::vector<Vector3>& points, bool ball)
+{
+  double sum = 0;
+  for (const Vector3& p : points) {
+    double outside = 0, inside = -1;
+    for (const double c : p) {
+      outside += std::pow(std::max(0.0, std::abs(c - 0.5) - 0.5), 2);
+      inside = std::max(inside, std::abs(c - 0.5) - 0.5);
+    }
+    sum += ball ? std::abs(distance(p, {0, 0, 0}) - 0.5) : std::abs(std::sqrt(outside) + std::min(inside, 0.0));
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+TEST(Denoise, aFewPointsAreNoWorseAfterwards)
+{
+  for (const std::size_t count : {10u, 47u, 100u, 200u, 300u, 500u})
+    for (const double share : {0.0, 0.005, 0.01}) // of the diagonal
+      for (const bool ball : {false, true}) {
+        const Shape shape = ball ? sphere(count, share * std::sqrt(3.0), 3) : cube(count, share * std::sqrt(3.0), 3);
+        const DenoiseResult result = denoise(Cloud(shape).input(), {});
+        std::vector<Vector3> after;
+        for (std::size_t i = 0; i < count; ++i)
+          after.push_back(at(result, i));
+        EXPECT_LE(meanError(after, ball), 1.02 * meanError(shape.points, ball) + 1e-9)
+            << count << " points, noise " << share << (ball ? ", sphere" : ", cube");
+        const auto flagged = std::count_if(result.outlier.begin(), result.outlier.end(), [](float q) { return q > 0.5f; });
+        EXPECT_LE(static_cast<double>(flagged), count < 200 ? 0.0 : 0.05 * static_cast<double>(count)) << count;
+      }
+  const Shape flat = plane(200, 0.005, 1); // where they do fit, they are used
+  const DenoiseResult result = denoise(Cloud(flat).input(), {});
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    before += std::abs(flat.points[i][2]);
+    after += std::abs(result.z[i]);
+  }
+  EXPECT_LT(after, 0.7 * before);
 }
 
 TEST(Denoise, leavesACleanCloudAsItIs)

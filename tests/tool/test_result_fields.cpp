@@ -183,6 +183,49 @@ TEST(ToolOutliers, AreFlaggedDroppedOrKept)
   EXPECT_EQ(kept["outliers"]["dropped"], 0);
 }
 
+TEST(ToolFields, LengthsBeyondFloatAreWrittenAsDouble)
+{
+  TemporaryFolder folder;
+  const CloudFile unit = toCloudFile(sphere(2000, 0.01), FieldType::Float64);
+  const auto fields = [&](double scale, FieldType type) {
+    CloudFile scaled = unit;
+    for (std::size_t i = 0; i < unit.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        scaled.setCoordinate(i, axis, scale * unit.value(i, axis));
+    save(scaled, folder / "in.ply");
+    filterReport({folder / "in.ply", "-o", folder / "out.ply", "--fields", "sigma,movement"});
+    CloudFile out = readCloud(folder / "out.ply");
+    for (const char* name : {"sigma", "movement"}) {
+      EXPECT_EQ(out.fields[static_cast<std::size_t>(out.findField(name))].type, type) << scale << " " << name;
+    }
+    return out;
+  };
+  const CloudFile plain = fields(1.0, FieldType::Float32);
+  const int sigma = plain.findField("sigma");
+  for (const double scale : {0x1p660, 0x1p-660}) { // about 1e200 and its inverse; powers of two round nothing
+    const CloudFile scaled = fields(scale, FieldType::Float64);
+    for (std::size_t i = 0; i < plain.size(); ++i)
+      ASSERT_NEAR(scaled.value(i, sigma) / scale, plain.value(i, sigma), 1e-6 * plain.value(i, sigma)) << scale;
+  }
+}
+
+TEST(ToolOutliers, AreNeverDroppedToNothing)
+{
+  TemporaryFolder folder;
+  const std::string in = folder / "in.ply", out = folder / "out.ply";
+  for (const std::size_t count : {2u, 3u, 10u, 47u}) { // too few to tell an outlier
+    save(toCloudFile(sphere(count), FieldType::Float64), in);
+    EXPECT_EQ(filterReport({in, "-o", out, "--outliers", "drop"})["outliers"]["dropped"], 0);
+    EXPECT_EQ(readCloud(out).size(), count);
+  }
+  save(toCloudFile(sphere(60), FieldType::Float64), in);
+  const ToolRun run = runTool({"filter", in, "-o", folder / "none.ply", "--outliers", "drop", "--outlier-weight", "0.9999",
+                               "--radius", "4x"});
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_NE(run.err.find("all 60 points"), std::string::npos) << run.err;
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"in.ply", "out.ply"}));
+}
+
 TEST(ToolMaxMove, HoldsInTheWrittenNumbers)
 {
   TemporaryFolder folder;

@@ -4,6 +4,7 @@
 #include "tool_clouds.h"
 
 #include <pcl_gpf/io/mesh_file.h>
+#include <pcl_gpf/pipeline/consolidate.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include <signal.h>
 
 #include <limits>
+#include <sstream>
 
 namespace pcl_gpf::test {
 namespace {
@@ -55,6 +57,42 @@ TEST(ToolRun, IsTheCommandsOneAfterTheOther)
   }
   EXPECT_GT(report["seconds"]["mesh"], 0.0);
   EXPECT_LE(sum, report["seconds"]["total"].get<double>() * 1.01);
+}
+
+TEST(ToolRun, IsConsolidateOnTheFilesNumbersAndTellsHowFarTheWholeIs)
+{
+  const TemporaryFolder folder;
+  const std::string in = saveSphere(folder / "in.ply");
+  const ToolRun run = runTool({"run", in, "-o", folder / "run.ply", "--stages", "filter,orient,upsample,mesh", "--mesh-resolution", "30",
+                               "--progress", "plain", "--keep-intermediate", folder / "step"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const CloudFile cloud = readCloud(in);
+  std::vector<double> columns[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      columns[axis].push_back(cloud.value(i, static_cast<int>(axis)));
+  ConsolidationParameters p;
+  p.upsample = true;
+  p.meshing.rimls.resolution = 30;
+  const ConsolidationResult expected = consolidate({columns[0].data(), columns[1].data(), columns[2].data(), cloud.size()}, p);
+  const CloudFile dense = readCloud(folder / "step-upsampled.ply");
+  ASSERT_EQ(dense.size(), expected.upsampled.size());
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    ASSERT_EQ(dense.value(i, 0), expected.upsampled.x[i]);
+    ASSERT_EQ(dense.value(i, dense.findField("normal_y")), static_cast<double>(expected.upsampled.normal_y[i]));
+    ASSERT_EQ(dense.value(i, dense.findField("label")), static_cast<double>(expected.upsampled.source_rows[i]));
+  }
+  EXPECT_EQ(readMesh(folder / "run.ply").triangles, expected.mesh.triangles);
+
+  std::istringstream lines(run.err);
+  std::string line;
+  int last = 0;
+  while (std::getline(lines, line) && line.find(" %") != std::string::npos) {
+    const int percent = std::stoi(line.substr(line.find_first_of("0123456789")));
+    EXPECT_GT(percent, last) << run.err;
+    last = percent;
+  }
+  EXPECT_EQ(last, 100) << run.err;
 }
 
 TEST(ToolRun, KeepsIntermediateCloudsWithAllFields)

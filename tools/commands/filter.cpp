@@ -121,6 +121,8 @@ writeOutput(const Options& options, LoadedCloud& cloud, const DenoiseResult& res
   if (outlierHandling(options) == OutlierHandling::Drop && run.outlier_points > 0) {
     if (cloud.file.isOrganized())
       console.say("the cloud is organised no more, because outliers are dropped");
+    if (run.outlier_points == rows.size())
+      throw UnsuitableData("all " + std::to_string(rows.size()) + " points look like outliers, nothing would be left; --outliers flag keeps them");
     dropOutliers(cloud.file, result, rows);
     run.dropped = run.outlier_points;
   }

@@ -83,7 +83,7 @@ checkCommandLine(const Options& options, const ConsolidationParameters& chosen)
 ConsolidationResult
 runChain(const Options& options, const LoadedCloud& cloud, const ConsolidationParameters& parameters)
 {
-  Progress progress(options);
+  Progress progress(options, Progress::Of::Run);
   const auto update = [&progress](const std::string& stage, double done) { return progress.update(stage, done); };
   return consolidate(filterInput(cloud, cloud.file.hasNormals()).view, parameters, update);
 }

@@ -84,7 +84,7 @@ chooseAndBox(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices, 
   return packed;
 }
 
-/** Box of the dense part of the usable points. */
+/** Box of the dense part of the usable points. \throws UnsuitableData where one of them hides the others (refuseFarPoint()) */
 template <typename PointT>
 BoundingBox
 denseBoxOf(const pcl::PointCloud<PointT>& cloud, const PackedCloud& packed, const BoundingBox& box)
@@ -94,10 +94,13 @@ denseBoxOf(const pcl::PointCloud<PointT>& cloud, const PackedCloud& packed, cons
   for (std::size_t i = 0; i < packed.chosen.size(); ++i)
     if (packed.states[i] == PointState::Usable)
       usable.push_back(packed.chosen[i]);
-  return denseBox(box, usable.size(), [&](std::size_t k, std::size_t axis) {
+  const auto coordinate = [&](std::size_t k, std::size_t axis) {
     const PointT& point = cloud[static_cast<std::size_t>(usable[k])];
     return static_cast<double>(point.data[axis]);
-  });
+  };
+  const BoundingBox dense = denseBox(box, usable.size(), coordinate);
+  refuseFarPoint(box, dense, usable.size(), coordinate, [&](std::size_t k) { return "point " + std::to_string(usable[k]); });
+  return dense;
 }
 
 } // namespace detail
@@ -105,7 +108,8 @@ denseBoxOf(const pcl::PointCloud<PointT>& cloud, const PackedCloud& packed, cons
 /** \brief Copies the usable points of `indices` into structure-of-arrays form in the normalised frame.
  *
  * The box is found in double. O(size of the cloud) time, 24 bytes a usable point and 5 a chosen one.
- * \throws InvalidParameter if an index is out of range, ExcessiveWork beyond 2^32 - 2 points (the core takes at most 2^31 - 17)
+ * \throws InvalidParameter if an index is out of range, UnsuitableData if one point lies so far away that the others cannot be told
+ * apart, ExcessiveWork beyond 2^32 - 2 points (the core takes at most 2^31 - 17)
  */
 template <typename PointT> PackedCloud
 pack(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/local_frame.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace pcl_gpf {
@@ -41,6 +43,39 @@ denseBox(const BoundingBox& all, std::size_t count, const Coordinate& coordinate
       dense.max[axis] = low + width * (static_cast<double>(last) + 2.0);
     }
   return dense;
+}
+
+/** \brief Refuses a cloud of which one point, garbage as a rule, lies so far away that the squared distances of all others are no
+ * longer floats in the normalised frame; copies of one place and that point are fine.
+ *
+ * \param[in] all, dense boxes of all points and of their dense part \param[in] name callable index -> what the message calls the point
+ * \throws UnsuitableData */
+template <typename Coordinate, typename Name>
+void
+refuseFarPoint(const BoundingBox& all, const BoundingBox& dense, std::size_t count, const Coordinate& coordinate, const Name& name)
+{
+  constexpr double kWidestExtent = 1e15; // in units of the extent of the dense part
+  if (!(all.diagonal() > kWidestExtent * dense.diagonal()))
+    return;
+  BoundingBox inside;
+  std::size_t furthest = 0;
+  double furthest_distance = -1.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double p[3] = {coordinate(i, 0), coordinate(i, 1), coordinate(i, 2)};
+    bool within = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      within = within && p[axis] >= dense.min[axis] && p[axis] <= dense.max[axis];
+    if (within)
+      inside.add(p[0], p[1], p[2]);
+    const double distance = std::hypot(p[0] - dense.min[0], p[1] - dense.min[1], p[2] - dense.min[2]);
+    if (distance > furthest_distance) {
+      furthest_distance = distance;
+      furthest = i;
+    }
+  }
+  if (inside.diagonal() > 0.0)
+    throw UnsuitableData(name(furthest) + " lies so far away that the other points cannot be told apart; remove it, or write NaN "
+                                          "where a coordinate is invalid");
 }
 
 } // namespace pcl_gpf

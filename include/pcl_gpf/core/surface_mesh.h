@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/soa_buffer.h>
 
 #include <cstddef>
@@ -38,6 +39,13 @@ meshTopology(const SurfaceMesh& mesh);
  * \param[in] share 0 .. 1; 0 removes nothing. Order is kept. \return number of components removed \throws InvalidParameter */
 PCL_GPF_CORE_EXPORT std::size_t
 removeSmallComponents(SurfaceMesh& mesh, double share);
+
+/** \brief Removes triangles with a vertex that is not finite or farther than `distance` from every point, those with a vertex twice, and
+ * then the vertices without triangles.
+ *
+ * \param[in] distance in the unit of the points, >= 0; infinity: only what is not finite goes */
+PCL_GPF_CORE_EXPORT void
+trimMesh(SurfaceMesh& mesh, const PointIndex& points, double distance, unsigned number_of_threads = 0);
 
 /** \brief Closes holes of at most so many edges by fans about their middle; the rim of a small patch is none. Places where holes touch
  * are left open.

@@ -1,85 +1,126 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_gpf/common/abi_check.h>
 #include <pcl_gpf/common/export.h>
-#include <pcl_gpf/core/operators/normal_orientation.h>
-#include <pcl_gpf/pipeline/denoise.h>
-#include <pcl_gpf/pipeline/mesh.h>
-#include <pcl_gpf/pipeline/upsample.h>
+#include <pcl_gpf/common/pack.h>
+#include <pcl_gpf/pipeline/consolidate.h>
 
-#include <array>
+#include <pcl/PolygonMesh.h>
+#include <pcl/surface/processing.h>
+
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace pcl_gpf {
 
-/** \brief Which stages consolidate() runs, in this order, and their parameters; lengths in cloud units. */
-struct ConsolidationParameters {
-  bool normals = false;  ///< estimate all normals anew; without it those of the input are used where it has them
-  bool filter = true;    ///< plane normals where they are missing, bilateral normal filter, GPF
-  bool orient = true;    ///< consistent signs of the normals
-  bool upsample = false; ///< denser; twice as many points unless `upsampling` says otherwise
-  bool mesh = true;
-
-  DenoiseParameters denoise; ///< of the stages normals and filter
-  NormalOrientationParameters orientation;
-  UpsampleParameters upsampling;
-  MeshParameters meshing; ///< after the stage orient the mesher takes the normals as they are
-  std::optional<std::array<double, 3>> viewpoint; ///< for the orientation, cloud units
-  unsigned number_of_threads = 0;                 ///< for all stages, whatever their own structs say; 0 = all that the process may use
+/** \brief What Consolidation did, after process(). */
+struct ConsolidationStatistics {
+  std::size_t input_points = 0; ///< finite ones
+  ConsolidationResult chain;    ///< statistics and seconds of all stages, lengths in cloud units; its arrays are empty
+  bool cancelled = false;       ///< the progress callback returned false; the outputs are empty
 };
 
-/** \brief Checks every range and that there is a stage. \throws InvalidParameter */
-PCL_GPF_EXPORT void
-validate(const ConsolidationParameters& parameters);
+/** \brief The whole chain on a cloud: normals, noise filter, orientation, upsampling and mesh; consolidate() for PCL.
+  *
+  * \code
+  * pcl_gpf::Consolidation<pcl::PointXYZRGBNormal> consolidation; // normals may be missing: 0 or NaN
+  * consolidation.setInputCloud(scan);
+  * pcl::PointCloud<pcl::PointXYZRGBNormal> clean;
+  * pcl::PolygonMesh mesh;
+  * consolidation.process(clean, mesh);
+  * \endcode
+  * - The cloud is what the last stage before the mesh made: the finite points of setIndices() (all by default), filtered, in
+  *   their order, then those that upsampling inserted; height 1. An index given twice counts once.
+  * - Each point, and each vertex of the mesh, is a copy of an input point as a whole, colour, intensity and label included,
+  *   with position and normal replaced; getCorrespondingIndices() and getMeshCorrespondingIndices() tell which.
+  * - process(output) alone leaves the stage mesh out.
+  * - Header and sensor pose are the input's; is_dense is set by fact. The output may be the input cloud itself.
+  * - Where ConsolidationParameters::viewpoint is not set, parts are oriented toward sensor_origin_ unless it is 0, 0, 0, as
+  *   `pcl_gpf_tool run` does; see setUseSensorOrigin().
+  * - No input cloud: PCL's error message and empty outputs. Nothing finite: a warning and empty outputs.
+  * - After cancellation and exceptions both outputs are empty (a cloud that is the input stays as it was), and the object can
+  *   be used again.
+  *
+  * \throws pcl::BadArgumentException if a parameter or an index is out of range, the target lies below the number of points, or
+  * the stages make a mesh of points without normals; pcl::ComputeFailedException if the points are too few, identical or on one
+  * line, or a resolution or target takes more than there is room for: all before the work wherever the input tells.
+  * Results equal consolidate() rounded to float. Cost: that of the stages; 36 bytes a point for the input in double.
+  * Thread safety: one object, one thread at a time; the result does not depend on the number of threads.
+  * \ingroup surface
+  */
+template <typename PointT>
+class Consolidation : public pcl::CloudSurfaceProcessing<PointT, PointT> {
+  static_assert(pcl::traits::has_xyz_v<PointT> && pcl::traits::has_normal_v<PointT>,
+                "pcl_gpf::Consolidation needs a point type with xyz and normal fields, for example pcl::PointXYZRGBNormal; "
+                "copy the cloud into one with pcl::copyPointCloud(), normals that are 0 are estimated");
 
-/** \brief Points with normals; coordinates in double, in the frame and unit of the input. */
-struct ConsolidatedCloud {
-  std::vector<double> x, y, z;
-  std::vector<float> normal_x, normal_y, normal_z; ///< unit length; NaN where no stage gave one
-  std::vector<std::uint32_t> source_rows;          ///< row of the input that each takes its other fields from
+public:
+  using Ptr = pcl::shared_ptr<Consolidation<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const Consolidation<PointT>>;
+  using PointCloud = pcl::PointCloud<PointT>;
 
-  std::size_t size() const { return x.size(); }
-  DenoiseInput view() const { return {x.data(), y.data(), z.data(), size(), normal_x.data(), normal_y.data(), normal_z.data()}; }
+  /** \brief Stages and all their parameters; lengths in cloud units. process() checks them. */
+  void setParameters(const ConsolidationParameters& parameters) { parameters_ = parameters; }
+  const ConsolidationParameters& getParameters() const { return parameters_; }
+
+  /** \brief Threads; 0 = all that the process may use. Default 0. */
+  void setNumberOfThreads(unsigned threads) { parameters_.number_of_threads = threads; }
+  unsigned getNumberOfThreads() const { return parameters_.number_of_threads; }
+
+  /** \brief Whether a sensor_origin_ other than 0, 0, 0 is the viewpoint where the parameters have none. Default true. */
+  void setUseSensorOrigin(bool use) { use_sensor_origin_ = use; }
+  bool getUseSensorOrigin() const { return use_sensor_origin_; }
+
+  /** \brief Called with the stage and the fraction done of the whole, from the calling thread; if it returns false, process()
+    * prints a warning and leaves empty outputs, and getStatistics().cancelled is true. Default none. */
+  void setProgressCallback(const StageProgress& callback) { progress_ = callback; }
+
+  /** \brief All stages but the mesh. */
+  void
+  process(PointCloud& output) override;
+  /** \brief All stages. \param[out] mesh empty where the stage is not chosen; mesh.cloud holds PointT */
+  void
+  process(PointCloud& output, pcl::PolygonMesh& mesh);
+
+  /** \brief After process(): for each output point the input index of the point that it is, or was copied from. */
+  const pcl::Indices& getCorrespondingIndices() const { return corresponding_; }
+  /** \brief The same for each vertex of the mesh. */
+  const pcl::Indices& getMeshCorrespondingIndices() const { return mesh_corresponding_; }
+
+  /** \brief What the last process() did. */
+  const ConsolidationStatistics& getStatistics() const { return statistics_; }
+
+protected:
+  /** \brief All stages but the mesh, with the output's header and pose as they are. */
+  void
+  performProcessing(PointCloud& output) override;
+
+private:
+  void
+  runInto(PointCloud& output, pcl::PolygonMesh* mesh);
+  void
+  runStages(PointCloud& output, pcl::PolygonMesh* mesh);
+  ConsolidationParameters
+  effectiveParameters(bool with_mesh) const;
+  void
+  copyParents(const pcl::Indices& chosen, const std::vector<std::uint32_t>& rows, PointCloud& points, pcl::Indices& from) const;
+  void
+  writeCloud(const pcl::Indices& chosen, const ConsolidatedCloud& cloud, PointCloud& output);
+  void
+  writeMesh(const pcl::Indices& chosen, const MeshResult& made, pcl::PolygonMesh& mesh);
+
+  ConsolidationParameters parameters_;
+  bool use_sensor_origin_ = true;
+  StageProgress progress_;
+  pcl::Indices corresponding_;
+  pcl::Indices mesh_corresponding_;
+  ConsolidationStatistics statistics_;
 };
-
-/** \brief Wall time of the stages. */
-struct ConsolidationSeconds {
-  double check = 0;   ///< what can be refused before the work
-  double normals = 0; ///< scale, plane fits and bilateral filter, those of the stages orient and upsample included
-  double filter = 0;
-  double orient = 0;
-  double upsample = 0;
-  double mesh = 0;
-  double total = 0;
-};
-
-/** \brief What consolidate() made. */
-struct ConsolidationResult {
-  ConsolidatedCloud points;    ///< after the stages normals, filter and orient: finite rows of the input, ascending
-  ConsolidatedCloud upsampled; ///< empty without that stage; begins with `points`, unless the method is MovingLeastSquares
-  MeshResult mesh;             ///< empty without that stage; `source_rows` are rows of the input of consolidate()
-
-  DenoiseResult denoise;       ///< statistics only, the arrays are in `points`
-  NormalOrientationStatistics orientation; ///< noise in cloud units
-  UpsampleResult upsampling;   ///< statistics only, the arrays are in `upsampled`
-  std::size_t non_finite_points = 0; ///< rows of the input that are left out
-  std::size_t estimated_normals = 0; ///< points whose normal the input did not have
-  ConsolidationSeconds seconds;
-};
-
-/** \brief The whole chain on a cloud in double coordinates: normals, filter, orientation, upsampling and mesh.
- *
- * Each stage is the function of its own header (denoise.h, orient.h, upsample.h, mesh.h) on what the one before made.
- * \param[in] progress called with the stage ("normals", "bilateral", "filter", ..., "orient", "upsampling", "mesh") and its
- * fraction done; false cancels
- * \throws InvalidParameter, UnsuitableData, ExcessiveWork (a target or resolution beyond what there is room for), all three before
- * the work wherever the input tells; Cancelled
- * Thread safety: free function without shared state.
- */
-PCL_GPF_EXPORT ConsolidationResult
-consolidate(const DenoiseInput& input, const ConsolidationParameters& parameters, const StageProgress& progress = {});
 
 } // namespace pcl_gpf
+
+#ifdef PCL_NO_PRECOMPILE
+#include <pcl_gpf/pipeline/impl/consolidation.hpp>
+#endif

@@ -35,7 +35,8 @@ struct DenoiseParameters {
   bool two_scales = true;
 
   /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
-   * stays as it is. Infinity = no limit. Not applied to the paper's recursion unless it is set. */
+   * stays as it is, and so do clouds of too few points (below 48, or a few hundred whose noise cannot be told from the shape).
+   * Infinity = no limit. Not applied to the paper's recursion unless it is set. */
   double max_move = 0.0;
 
   /** Scales every length that comes from the noise, 0.5 .. 2: the noise is taken for this many times what was measured. Larger smooths
@@ -71,8 +72,8 @@ struct DenoiseResult {
   std::vector<std::uint8_t> isolated;        ///< 1 = no data in reach but the point itself: nothing filtered it
   std::vector<std::uint8_t> fine;            ///< 1 = the fine scale's result was taken; empty when one scale was filtered
   static constexpr float kOutlier = 0.5f;    ///< points above are outliers
-  std::vector<float> outlier;                ///< probability 0 .. 1 that the point is none of the surface (outlierProbabilities())
-  std::vector<float> sigma;                  ///< noise that was taken out about the point, cloud units (localNoise())
+  std::vector<float> outlier;                ///< probability 0 .. 1 that the point is none of the surface (outlierProbabilities()); 0 below about 200 points, too few to tell
+  std::vector<double> sigma;                 ///< noise that was taken out about the point, cloud units (localNoise())
   std::vector<std::uint8_t> edge;            ///< 1 = within h / 4 of a sharp edge of the filtered cloud (edgePoints())
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
   double max_move = 0;                       ///< the limit, cloud units; infinity = none

@@ -66,8 +66,8 @@ checkMeshable(const DenoiseInput& input, const MeshParameters& parameters);
  *
  * Rows that are not finite or have no normal are left out.
  * \param[in] input with normals \param[in] viewpoint for the orientation, cloud units, or null
- * \throws InvalidParameter (no normals; a range), UnsuitableData (nothing finite, fewer than 4 points, all points in one place),
- * ExcessiveWork naming the memory that the resolution takes, before the work starts, Cancelled
+ * \throws InvalidParameter (no normals; a range), UnsuitableData (nothing finite, fewer than 4 points, all points in one place or on one line),
+ * ExcessiveWork naming the memory that the resolution takes or the work of a wide support, before the work starts, Cancelled
  * \note MeshMethod::Poisson can be cancelled before and after PCL's part only.
  */
 PCL_GPF_EXPORT MeshResult

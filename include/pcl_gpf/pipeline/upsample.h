@@ -46,6 +46,10 @@ struct UpsampleResult {
   double seconds_upsampling = 0;
 };
 
+/** \brief Refuses what upsample() would refuse, a small part of its time. \throws InvalidParameter, UnsuitableData, ExcessiveWork */
+PCL_GPF_EXPORT void
+checkUpsamplable(const DenoiseInput& input, const UpsampleParameters& parameters);
+
 /** \brief Makes a cloud given in double coordinates denser, every finite point; rows that are not finite are left out.
  *
  * Normals that the input does not have are estimated: plane fits, then the bilateral normal filter.

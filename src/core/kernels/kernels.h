@@ -8,8 +8,10 @@
 
 namespace pcl_gpf {
 
-/** What the wide loops see: raw pointers and numbers only. Every array of queries is padded to a multiple of 16; every array of data
- * has 16 padded elements (whole vectors are read); their positions are far beyond any radius. */
+/** What the wide loops see: raw pointers and numbers only. Every array of queries is padded to a multiple of 16. Every array of data
+ * has a padded element behind its end, which stands for no datum (Candidates::absent); its position is far beyond any radius.
+ * Positions of data and `inverse_sq_per_datum` are loaded by whole vectors that begin anywhere in a run, so up to 15 elements behind
+ * the end are read and left unused: these arrays have 15 padded elements, of any value. */
 namespace kernels {
 
 template <typename Real>

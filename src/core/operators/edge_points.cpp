@@ -33,12 +33,12 @@ struct Plane {
   Eigen::Vector3d through, normal;
 };
 
-/** Moves the neighbours that face as `normal` does, up to sign, behind `begin`. \return the end of the others */
+/** Moves the neighbours that face as `normal` does, up to sign, behind the others, the order kept: sums follow it. \return the end of the others */
 std::vector<Neighbor>::iterator
 separate(std::vector<Neighbor>& neighbors, const Eigen::Vector3f& normal, float least_cosine)
 {
-  return std::partition(neighbors.begin(), neighbors.end(),
-                        [&](const Neighbor& n) { return !(std::abs(n.normal.dot(normal)) > least_cosine); });
+  return std::stable_partition(neighbors.begin(), neighbors.end(),
+                               [&](const Neighbor& n) { return !(std::abs(n.normal.dot(normal)) > least_cosine); });
 }
 
 Plane

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/analysis/spacing.h>
+#include <pcl_gpf/core/analysis/surface_extent.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/rimls_mesh.h>
 
 #include "../check_range.h"
 #include "../sorted_points.h"
+#include "rimls_work.h"
 
 #include <algorithm>
 #include <array>
@@ -154,7 +156,7 @@ projectVertices(const RimlsSurface& surface, double cell_size, SurfaceMesh& mesh
   return movement / static_cast<double>(std::max<std::size_t>(1, count));
 }
 
-/** Spacing, cell and memory. */
+/** Spacing, cell, memory and work. */
 void
 foresee(const RimlsMeshParameters& parameters, PointsView points, const PointIndex& index, RimlsMeshStatistics& done)
 {
@@ -162,11 +164,16 @@ foresee(const RimlsMeshParameters& parameters, PointsView points, const PointInd
   if (points.size < kFewestPoints || !(done.spacing > 0.0))
     throw UnsuitableData(std::to_string(points.size) + " points" +
                          (points.size < kFewestPoints ? "" : " in one place") + " make no surface");
+  if (!spansSurface(points))
+    throw UnsuitableData("the " + std::to_string(points.size) + " points lie on one line and make no surface");
   const double side = boxSide(points);
   done.cell_size = parameters.cell_size > 0.0 ? parameters.cell_size : side / parameters.resolution;
   done.expected_memory =
       estimateSurfaceMemory(done.spacing * done.spacing * static_cast<double>(points.size), done.cell_size);
   refuseTooMuchMemory(done.expected_memory, static_cast<double>(parameters.memory_limit), side / done.cell_size);
+  const double spacings = done.spacing / done.cell_size;
+  refuseExcessiveMeshWork(fitToCells(parameters, done.cell_size, done.spacing), index, done.spacing,
+                          spacings * spacings * static_cast<double>(points.size));
 }
 
 /** The part [begin, end] of the whole progress. */

@@ -96,6 +96,27 @@ TYPED_TEST(Kernels, agreeWithTheirFormulasWrittenOutInDouble)
   EXPECT_LT(undecided, checked / 500);
 }
 
+TYPED_TEST(Kernels, readButDoNotUseWhatLiesBehindThePaddedDatum)
+{
+  using Real = TypeParam;
+  for (const bool lists : {false, true}) {
+    const KernelInput<Real> in(100, 50, lists, 4);
+    KernelInput<Real> poisoned(100, 50, lists, 4);
+    for (std::size_t i = 51; i < 50 + kQueryBlock; ++i) // behind the datum that stands for none
+      for (SortedVectors<Real>* arrays : {&poisoned.data, &poisoned.data_normals})
+        for (AlignedArray<Real>* axis : {&arrays->x, &arrays->y, &arrays->z})
+          (*axis)[i] = i % 2 == 0 ? std::numeric_limits<Real>::quiet_NaN() : Real(0.5);
+    forEveryCase<Real>([&](const auto& kernel) {
+      for (const auto* target : usableKernels()) {
+        KernelOutput<Real> expected(in.query_count, kernel.channels()), out(in.query_count, kernel.channels());
+        kernel.run(*target->set, in, expected);
+        kernel.run(*target->set, poisoned, out);
+        EXPECT_TRUE(out.sameBits(expected)) << kernel.name() << " on " << target->name;
+      }
+    });
+  }
+}
+
 TYPED_TEST(Kernels, workOnPartOfTheBlocks)
 {
   using Real = TypeParam;

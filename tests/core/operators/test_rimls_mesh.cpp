@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -180,6 +181,27 @@ TEST(RimlsMesh, refusesAResolutionThatTakesTooMuchMemoryAndNamesIt)
   }
 }
 
+TEST(RimlsMesh, refusesASupportRadiusThatHoldsEverythingAtOnceAndSaysWhatItWouldTake)
+{
+  const LocalCloud cloud = toLocalCloud(turned(sphere(60000)));
+  RimlsMeshParameters wide, wide_scale;
+  wide.rimls.radius = 1e9;
+  wide_scale.rimls.scale = 100.0;
+  for (const RimlsMeshParameters& p : {wide, wide_scale}) {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      meshOf(cloud, p, 300);
+      FAIL();
+    } catch (const ExcessiveWork& error) {
+      EXPECT_NE(std::string(error.what()).find("billion pairs"), std::string::npos) << error.what();
+    }
+    EXPECT_THROW(checkMeshMemory(p, cloud.points.view()), ExcessiveWork);
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 20.0); // 0.1 s; minutes without
+  }
+  wide.resolution = 20; // few cells may take wide supports
+  EXPECT_GT(checkMeshMemory(wide, cloud.points.view()), 0.0);
+}
+
 TEST(RimlsMesh, refusesCloudsWithoutSurfaceAndBadParameters)
 {
   for (const std::size_t size : {0u, 1u, 2u, 3u, 50u}) {
@@ -201,7 +223,7 @@ TEST(RimlsMesh, refusesCloudsWithoutSurfaceAndBadParameters)
   refused([](RimlsMeshParameters& p) { p.rimls.scale = 0; });
 }
 
-TEST(RimlsMesh, pointsOnALineMakeNothingOrLittle)
+TEST(RimlsMesh, refusesPointsOnALine)
 {
   std::vector<Vector3> points, normals;
   for (int i = 0; i < 200; ++i) {
@@ -209,8 +231,8 @@ TEST(RimlsMesh, pointsOnALineMakeNothingOrLittle)
     normals.push_back({0, 0, 1});
   }
   const SoaBuffer p = toBuffer(points), n = toBuffer(normals);
-  const SurfaceMesh mesh = meshRimls({}, p.view(), n.view());
-  EXPECT_EQ(meshTopology(mesh).inconsistent_edges, 0u);
+  EXPECT_THROW(meshRimls({}, p.view(), n.view()), UnsuitableData);
+  EXPECT_THROW(checkMeshMemory({}, p.view()), UnsuitableData);
 }
 
 TEST(RimlsMesh, canBeCancelledAnywhereAndProgressRises)

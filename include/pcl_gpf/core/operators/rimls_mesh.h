@@ -69,7 +69,7 @@ struct RimlsMeshStatistics {
   double seconds = 0;
 };
 
-/** \brief The check of the memory that meshRimls() does, alone.
+/** \brief The checks of memory and work that meshRimls() does, alone.
  * \param[in] points N finite positions in the normalised frame
  * \return bytes that lattice and mesh will take, estimated
  * \throws InvalidParameter, UnsuitableData, ExcessiveWork as meshRimls() does */
@@ -81,8 +81,9 @@ checkMeshMemory(const RimlsMeshParameters& parameters, PointsView points);
  * Closed where the points are; elsewhere it ends about two local radii beyond them. Counterclockwise faces look along
  * the normals.
  * \param[in] points N finite positions in the normalised frame \param[in] normals N unit vectors
- * \throws InvalidParameter, UnsuitableData (fewer than 4 points, or all in one place), ExcessiveWork naming the memory
- * that the resolution takes, before the work starts, Cancelled
+ * \throws InvalidParameter, UnsuitableData (fewer than 4 points, all in one place or on one line), ExcessiveWork naming the
+ * memory that the resolution takes, or the pairs and seconds of a support radius that holds too many points, before the
+ * work starts, Cancelled
  */
 PCL_GPF_CORE_EXPORT SurfaceMesh
 meshRimls(const RimlsMeshParameters& parameters,
