@@ -3,6 +3,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "cloud_flags.h"
+#include "gap_stage.h"
 #include "move_limit.h"
 #include "outlier_repeat.h"
 #include "packed_cloud.h"
@@ -137,6 +138,7 @@ project(const GPFParameters& parameters, FilterScale filter_scale, const std::ve
     stats.max_movement = packed.frame.lengthToWorld(stats.max_movement);
   }
   FilteredCloud cloud;
+  fillGaps(parameters, packed.frame, stageOf(stageName("gaps", filter_scale), progress), state, cloud);
   cloud.isolated = state.isolated();
   cloud.normals = SoaBuffer(state.size());
   state.normals(cloud.normals.view());
@@ -170,6 +172,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
   const FilterScale first = two_scales ? FilterScale::Coarse : FilterScale::Single;
   const DenoiseParameters p = parametersAt(first, parameters, scale, packed.frame, result);
   FilteredCloud cloud = filterAt(first, p, samples, result.iterations);
+  result.gap_iterations = std::move(cloud.gap_iterations);
   watch.lap();
   if (two_scales) {
     const DenoiseParameters fine = parametersAt(FilterScale::Fine, parameters, scale, packed.frame, result);

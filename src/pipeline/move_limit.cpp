@@ -42,7 +42,8 @@ longestMove(const DenoiseParameters& wanted, double noise, double spacing, const
   constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   if (wanted.max_move > 0.0)
     return frame.lengthToLocal(wanted.max_move);
-  const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.support_radius == 0.0;
+  const bool estimated = !runsInDouble(wanted.gpf) && wanted.gpf.repulsion_weight == 0.0 && wanted.gpf.gap_iterations == 0 &&
+                         wanted.gpf.support_radius == 0.0;
   if (!estimated || moves.size() < kFewestForNoise)
     return kNoLimit;
   const double limit = kNoises * noise;
@@ -74,7 +75,7 @@ originOf(const DenoiseParameters& wanted, double limit)
     return {"max_move", limit, "user", ""};
   if (std::isinf(limit))
     return {"max_move", limit, "default",
-            "no limit where the radius is given, in the paper's recursion, and where noise is uneven or cannot be told"};
+            "no limit where the radius is given, where points move sideways, in the paper's recursion, and where noise is uneven or cannot be told"};
   return {"max_move", limit, "estimated", "6 x noise" + strengthNote(wanted.strength)};
 }
 

@@ -27,6 +27,8 @@ struct Packed {
 struct FilteredCloud {
   SoaBuffer displacements, normals;
   std::vector<std::uint8_t> isolated;
+  std::vector<float> moves;          ///< lengths of the displacements before gap filling; empty: those of the displacements
+  std::vector<IterationStats> gap_iterations; ///< rounds of gap filling, movements in cloud units
   std::vector<float> outlier, sigma; ///< empty where not wanted
   std::vector<std::uint8_t> edge;
 };

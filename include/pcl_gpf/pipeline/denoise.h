@@ -31,7 +31,8 @@ struct DenoiseParameters {
   GPFParameters gpf;
 
   /** Filter at two scales and take at each point the coarse result, or the fine one where the coarse one took detail away
-   * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals; otherwise one scale. */
+   * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals (no repulsion, no gap filling);
+   * otherwise one scale. */
   bool two_scales = true;
 
   /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
@@ -84,6 +85,7 @@ struct DenoiseResult {
   std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units
   std::vector<IterationStats> iterations;    ///< of GPF; variance in the normalised frame, movements in cloud units
   std::vector<IterationStats> fine_iterations; ///< the same at the fine scale; empty where no point needs it
+  std::vector<IterationStats> gap_iterations;  ///< rounds of gap filling (gpfFillGaps()); empty where none is asked for
   std::size_t non_finite_points = 0;
   std::size_t estimated_normals = 0;         ///< normals that the input did not have
   double seconds_normals = 0;
@@ -91,7 +93,7 @@ struct DenoiseResult {
   double seconds_filter = 0;
 };
 
-/** \brief Called with the stage ("normals", "bilateral", "filter", then "fine normals", ... where two scales are filtered, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
+/** \brief Called with the stage ("normals", "bilateral", "filter", "gaps" where they are filled, then "fine normals", ... where two scales are filtered, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
 using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
 
 /** \brief Filters a cloud given in double coordinates, every finite point by default; rows that are not finite are left out.

@@ -87,6 +87,21 @@ gpfRun(GPFState& state, const ProgressCallback& progress)
   return history;
 }
 
+std::vector<IterationStats>
+gpfFillGaps(GPFState& state, const ProgressCallback& progress)
+{
+  const unsigned rounds = state.implementation().parameters.gap_iterations;
+  std::vector<IterationStats> history;
+  while (history.size() < rounds) {
+    if (progress && !progress(static_cast<double>(history.size()) / rounds))
+      throw Cancelled();
+    history.push_back(state.implementation().fillGaps());
+    if (!(history.back().max_movement > 0.0))
+      break;
+  }
+  return history;
+}
+
 double
 gpfHaloWidth(const GPFParameters& parameters)
 {
