@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -21,6 +21,9 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr float kHalfWidth = 0.25f, kHeight = 0.25f;
 /** The plane of the other face is the mean over points not much further away than the nearest of them. */
 constexpr float kPatch = 0.2f;
+/** How far from an edge its face is looked for, as a share of the length, and largest share of the face beyond it: none where three
+ * edges meet and the face goes round the corner. */
+constexpr double kBeside = 0.75, kMostBeyond = 0.2;
 /** Points that stay on the edge, and shortest move, in spacings. */
 constexpr double kStay = 1.0, kShortest = 0.5;
 /** Furthest that the nearest point of the other face may be beyond the edge, in spacings: else the surface is curved, not creased. */
@@ -80,6 +83,8 @@ private:
   }
   void
   fill(std::size_t k, Ball& ball) const;
+  bool
+  turnInward(const Eigen::Vector3f& normal, const Ball& ball, Edge& edge) const;
   Edge
   edgeOf(const Eigen::Vector3f& normal, const Ball& ball) const;
   double
@@ -119,6 +124,27 @@ GapFiller::fill(std::size_t k, Ball& ball) const
   });
 }
 
+/** Turns the direction to where the own face is beside the point. \return false where the face lies on both sides */
+bool
+GapFiller::turnInward(const Eigen::Vector3f& normal, const Ball& ball, Edge& edge) const
+{
+  const Eigen::Vector3f along_edge = normal.cross(edge.inward);
+  const double half_width = kHalfWidth * length_;
+  double one_side = 0, other_side = 0;
+  for (const Neighbor& n : ball.own) {
+    const double distance = edge.distance + static_cast<double>(n.offset.dot(edge.inward));
+    const double weight = std::max(0.0, 1.0 - std::abs(static_cast<double>(n.offset.dot(along_edge))) / half_width);
+    if (std::abs(distance) < kBeside * length_)
+      (distance > 0 ? one_side : other_side) += weight * std::abs(distance);
+  }
+  if (one_side < other_side) {
+    edge.inward = -edge.inward;
+    edge.distance = -edge.distance;
+    std::swap(one_side, other_side);
+  }
+  return other_side < kMostBeyond * one_side;
+}
+
 /** The line in which the tangent plane meets the mean plane of the nearest other face. */
 Edge
 GapFiller::edgeOf(const Eigen::Vector3f& normal, const Ball& ball) const
@@ -148,16 +174,7 @@ GapFiller::edgeOf(const Eigen::Vector3f& normal, const Ball& ball) const
     return edge;
   edge.inward = across / sine;
   edge.distance = -static_cast<double>(through.dot(direction) / count / sine);
-  double side = 0; // where most of the own face is
-  for (const Neighbor& n : ball.own) {
-    const double along = edge.distance + static_cast<double>(n.offset.dot(edge.inward));
-    side += std::clamp(8.0 * along / length_, -1.0, 1.0) * (1.0 - static_cast<double>(n.offset.norm() / reach_));
-  }
-  if (side < 0) {
-    edge.inward = -edge.inward;
-    edge.distance = -edge.distance;
-  }
-  edge.found = true;
+  edge.found = turnInward(normal, ball, edge);
   return edge;
 }
 

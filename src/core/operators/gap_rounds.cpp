@@ -21,6 +21,8 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kWidestAngle = 30.0;
 /** A point on a curved face has not gone far enough along the bend after one projection. */
 constexpr unsigned kProjections = 2;
+/** A point keeps at least this share of the data of its own face; rounding and uneven data leave room below 1. */
+constexpr float kLeastSupport = 0.8f;
 
 /** The points that were moved, as queries in float, with sums for each. */
 struct Moved {
@@ -61,11 +63,32 @@ falloffOf(double degrees)
   return static_cast<float>(1.0 / (1.0 - std::cos(degrees * kPi / 180.0)));
 }
 
-/** New normals, then one step onto the mean plane; data weigh alike within the ball. */
-void
-project(const Data& data, double radius, float angle_falloff, const Neighborhoods& near, std::size_t threads, Moved& moved)
+/** The mean plane of the data that face as a point does; data weigh alike within the ball. */
+kernels::Projection<float>
+meanPlane(const Data& data, double radius, float angle_falloff, Moved& moved)
 {
-  const kernels::Candidates candidates = candidatesOf(near);
+  kernels::Projection<float> a;
+  a.queries = moved.positions.vectors();
+  a.query_normals = moved.normals.vectors();
+  a.data = {data.positions.x, data.positions.y, data.positions.z};
+  a.data_normals = data.normals;
+  a.radius.radius_sq = static_cast<float>(radius * radius);
+  a.falloff = 0.5f;
+  a.symmetric = true;
+  a.symmetry_falloff = angle_falloff;
+  a.normal_weights = true;
+  a.normal_falloff = angle_falloff;
+  a.data_weight = data.weight;
+  a.weight_sum = moved.weight.data();
+  a.pull = moved.pull.vectors();
+  return a;
+}
+
+/** Takes the mean normal of these data, sign as it is. */
+void
+meanNormals(const Data& data, double radius, float angle_falloff, const kernels::Candidates& candidates, std::size_t begin, std::size_t end,
+            Moved& moved)
+{
   kernels::BilateralNormals n;
   n.queries = moved.positions.vectors();
   n.query_normals = moved.normals.vectors();
@@ -75,30 +98,26 @@ project(const Data& data, double radius, float angle_falloff, const Neighborhood
   n.angle_falloff = angle_falloff;
   n.data_weight = data.weight;
   n.out = moved.normal_sum.vectors();
-  kernels::Projection<float> a;
-  a.queries = n.queries;
-  a.query_normals = n.query_normals;
-  a.data = n.data;
-  a.data_normals = n.data_normals;
-  a.radius = n.radius;
-  a.falloff = 0.5f;
-  a.symmetric = true;
-  a.symmetry_falloff = angle_falloff;
-  a.normal_weights = true;
-  a.normal_falloff = angle_falloff;
-  a.data_weight = data.weight;
-  a.weight_sum = moved.weight.data();
-  a.pull = moved.pull.vectors();
+  kernels::active().bilateral_normals(candidates, n, begin, end);
+  for (std::size_t k = begin * kQueryBlock; k < std::min(moved.size(), end * kQueryBlock); ++k) {
+    const float x = moved.normal_sum.x[k], y = moved.normal_sum.y[k], z = moved.normal_sum.z[k];
+    const float length = std::sqrt(x * x + y * y + z * z);
+    if (length > 0.0f)
+      moved.normals.x[k] = x / length, moved.normals.y[k] = y / length, moved.normals.z[k] = z / length;
+  }
+}
+
+/** How many data face as each point does, by weight, in `moved.weight`; and, when `step`, one step onto their mean plane. */
+void
+visitData(const Data& data, double radius, float angle_falloff, const Neighborhoods& near, bool step, std::size_t threads, Moved& moved)
+{
+  const kernels::Candidates candidates = candidatesOf(near);
+  const kernels::Projection<float> plane = meanPlane(data, radius, angle_falloff, moved);
   parallelBlocks(blockCount(moved.size()), kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
-    kernels::active().bilateral_normals(candidates, n, begin, end);
-    for (std::size_t k = begin * kQueryBlock; k < std::min(moved.size(), end * kQueryBlock); ++k) {
-      const float x = moved.normal_sum.x[k], y = moved.normal_sum.y[k], z = moved.normal_sum.z[k];
-      const float length = std::sqrt(x * x + y * y + z * z);
-      if (length > 0.0f)
-        moved.normals.x[k] = x / length, moved.normals.y[k] = y / length, moved.normals.z[k] = z / length;
-    }
-    kernels::active().projection_float(candidates, a, begin, end);
-    for (std::size_t k = begin * kQueryBlock; k < std::min(moved.size(), end * kQueryBlock); ++k)
+    if (step)
+      meanNormals(data, radius, angle_falloff, candidates, begin, end, moved);
+    kernels::active().projection_float(candidates, plane, begin, end);
+    for (std::size_t k = begin * kQueryBlock; step && k < std::min(moved.size(), end * kQueryBlock); ++k)
       if (moved.weight[k] > 0.0f) {
         moved.positions.x[k] += moved.pull.x[k] / moved.weight[k];
         moved.positions.y[k] += moved.pull.y[k] / moved.weight[k];
@@ -147,19 +166,19 @@ spread(const GapRound<Real>& round, const GPFPoints<Real>& cloud)
   return movesIntoGaps(p, places, cloud.sampleNormals().floatView(normals));
 }
 
-/** The samples that `moves` take somewhere else, there. */
+/** Some of the samples, as far along their moves as `share` says. */
 template <typename Real>
 Moved
-take(const std::vector<std::uint32_t>& which, const SoaBuffer& moves, const GPFPoints<Real>& cloud)
+take(const std::vector<std::uint32_t>& which, const SoaBuffer& moves, float share, const GPFPoints<Real>& cloud)
 {
   const SortedVectors<Real>& from = cloud.samples();
   const SortedVectors<Real>& normals = cloud.sampleNormals();
   Moved moved(which.size());
   for (std::size_t k = 0; k < which.size(); ++k) {
     const std::uint32_t s = which[k];
-    moved.positions.x[k] = static_cast<float>(from.x[s] + static_cast<Real>(moves.x[s]));
-    moved.positions.y[k] = static_cast<float>(from.y[s] + static_cast<Real>(moves.y[s]));
-    moved.positions.z[k] = static_cast<float>(from.z[s] + static_cast<Real>(moves.z[s]));
+    moved.positions.x[k] = static_cast<float>(from.x[s]) + share * moves.x[s];
+    moved.positions.y[k] = static_cast<float>(from.y[s]) + share * moves.y[s];
+    moved.positions.z[k] = static_cast<float>(from.z[s]) + share * moves.z[s];
     moved.normals.x[k] = static_cast<float>(normals.x[s]);
     moved.normals.y[k] = static_cast<float>(normals.y[s]);
     moved.normals.z[k] = static_cast<float>(normals.z[s]);
@@ -167,15 +186,17 @@ take(const std::vector<std::uint32_t>& which, const SoaBuffer& moves, const GPFP
   return moved;
 }
 
-/** Puts them back. */
+/** Puts those back that landed on their own face. \param[in] before weights of the data of the own face where the points came from */
 template <typename Real>
 IterationStats
-put(const Moved& moved, const std::vector<std::uint32_t>& which, GPFPoints<Real>& cloud)
+put(const Moved& moved, const AlignedArray<float>& before, const std::vector<std::uint32_t>& which, GPFPoints<Real>& cloud)
 {
   IterationStats stats;
   SortedVectors<Real>& to = cloud.samples();
   SortedVectors<Real>& normals = cloud.ownSampleNormals();
   for (std::size_t k = 0; k < which.size(); ++k) {
+    if (moved.weight[k] < kLeastSupport * before[k]) // inwards there are more: this went over another edge
+      continue;
     const std::uint32_t s = which[k];
     const double length = std::hypot(moved.positions.x[k] - to.x[s], moved.positions.y[k] - to.y[s], moved.positions.z[k] - to.z[s]);
     stats.mean_movement += length;
@@ -201,17 +222,19 @@ runGapRound(const GapRound<Real>& round, GPFPoints<Real>& cloud)
       which.push_back(static_cast<std::uint32_t>(s));
   IterationStats stats;
   if (!which.empty()) {
-    Moved moved = take(which, moves, cloud);
     SortedVectors<float> storage;
     const Data data = dataOf(round, cloud, storage);
     const double radius = 0.5 * round.parameters.support_radius;
     const float falloff = falloffOf(std::min(kWidestAngle, round.parameters.normal_angle));
-    for (unsigned k = 0; k < kProjections; ++k) {
-      const Neighborhoods near = round.search ? transposeLists(round.search(data.positions, moved.view(), radius), data.positions.size)
-                                              : findNeighborhoods(*data.tree, moved.view(), radius, round.threads);
-      project(data, radius, falloff, near, round.threads, moved);
-    }
-    stats = put(moved, which, cloud);
+    const auto near = [&](const Moved& points) {
+      return round.search ? transposeLists(round.search(data.positions, points.view(), radius), data.positions.size)
+                          : findNeighborhoods(*data.tree, points.view(), radius, round.threads);
+    };
+    Moved before = take(which, moves, 0.0f, cloud), moved = take(which, moves, 1.0f, cloud);
+    visitData(data, radius, falloff, near(before), false, round.threads, before);
+    for (unsigned k = 0; k < kProjections; ++k)
+      visitData(data, radius, falloff, near(moved), true, round.threads, moved);
+    stats = put(moved, before.weight, which, cloud);
   }
   stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return stats;
