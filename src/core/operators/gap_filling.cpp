@@ -3,13 +3,16 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "../check_range.h"
+#include "face_edge.h"
 #include "filtered_cloud_index.h"
+#include "patches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <iterator>
+#include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace pcl_gpf {
@@ -17,36 +20,45 @@ namespace pcl_gpf {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-/** Half width of a strip, and largest height of its points above the tangent plane, as shares of its length. */
-constexpr float kHalfWidth = 0.25f, kHeight = 0.25f;
-/** The plane of the other face is the mean over points not much further away than the nearest of them. */
-constexpr float kPatch = 0.2f;
-/** How far from an edge its face is looked for, as a share of the length, and largest share of the face beyond it: none where three
- * edges meet and the face goes round the corner. */
-constexpr double kBeside = 0.75, kMostBeyond = 0.2;
+constexpr std::size_t kPointsPerTask = 2048;
+/** Shares of the length of a strip: its half width, the largest height of its points above the tangent plane, how far beyond the edge
+ * it begins, how far from the edge points are moved, and the width of patches whose points share a strip. */
+constexpr double kHalfWidth = 0.25, kHeight = 0.25, kBeyond = 0.25, kFurthest = 0.5, kPatchWidth = 0.125;
 /** Points that stay on the edge, and shortest move, in spacings. */
-constexpr double kStay = 1.0, kShortest = 0.5;
+constexpr double kStay = 0.75, kShortest = 0.5;
 /** Furthest that the nearest point of the other face may be beyond the edge, in spacings: else the surface is curved, not creased. */
 constexpr double kCrease = 3.0;
 constexpr std::size_t kFewestInStrip = 8;
+/** Radius, as a share of the length, of the ball that holds kMostData at most: twice as many in the ball about a strip. */
+constexpr double kDense = 0.7;
 
-/** A datum in the ball about a point, relative to it. */
-struct Neighbor {
-  Eigen::Vector3f offset, normal;
-  std::uint32_t place; ///< among the sorted points
+/** A point of a strip: how far from the edge, and its weight; ties go by place. */
+struct StripPoint {
+  double distance, weight;
+  std::uint32_t place;
+
+  bool
+  operator<(const StripPoint& other) const
+  {
+    return distance != other.distance ? distance < other.distance : place < other.place;
+  }
 };
 
-/** Points of the ball about one point: those of its own face, and the others. */
-struct Ball {
-  std::vector<Neighbor> own, other;
-};
+/** The points of a face beside an edge, in the order of their distance from it. */
+struct Strip {
+  std::vector<StripPoint> points; ///< weights summed up from the first
+  double length = 0;              ///< as far as there are points
+  double spacing = 0;             ///< of the cloud's points in it
 
-/** The edge that the point's face has with another. */
-struct Edge {
-  Eigen::Vector3f inward = Eigen::Vector3f::Zero(); ///< unit vector in the tangent plane, away from the edge
-  double distance = 0;                              ///< of the point from the edge, negative beyond it
-  double nearest_other = 0;                         ///< distance of the nearest point of the other face
-  bool found = false;
+  /** Where a point would be if the points lay evenly, less those that stay on the edge. */
+  double
+  placeOf(const StripPoint& point) const
+  {
+    const auto next = std::lower_bound(points.begin(), points.end(), point);
+    const double before = next == points.begin() ? 0.0 : std::prev(next)->weight;
+    const double stay = kStay * spacing;
+    return (length * before / points.back().weight - stay) * length / std::max(length - stay, spacing);
+  }
 };
 
 class GapFiller {
@@ -56,167 +68,161 @@ public:
   , reach_(static_cast<float>(length_ * std::sqrt(1.0 + kHalfWidth * kHalfWidth)))
   , cosine_(static_cast<float>(std::cos(p.angle * kDegree)))
   , half_cosine_(static_cast<float>(std::cos(0.5 * p.angle * kDegree)))
-  , cloud_(positions, normals, 0.5 * length_, p.spacing, p.number_of_threads)
-  , near_(cloud_.neighborhoods(reach_))
+  , cloud_(positions, normals, kDense * length_, p.spacing, p.number_of_threads)
   {}
 
-  /** \return whether all data near a block of points face one way */
-  bool
-  onOneFace(std::size_t block) const;
-  Eigen::Vector3f
-  moveOf(std::size_t k, Ball& ball) const;
-  const FilteredCloudIndex& cloud() const { return cloud_; }
+  SoaBuffer
+  moves() const;
 
 private:
-  Eigen::Vector3f
-  normalOf(std::size_t k) const
+  /** Memory that a task uses again. */
+  struct Scratch {
+    std::vector<Run> runs;
+    std::vector<FacePoint> data, points, group;
+    FaceView view;
+    Strip strip;
+  };
+
+  FacePoint
+  pointAt(std::size_t k) const
   {
-    return {cloud_.normals.x[k], cloud_.normals.y[k], cloud_.normals.z[k]};
-  }
-  template <typename F>
-  void
-  forCandidates(std::size_t block, const F& f) const
-  {
-    for (std::size_t r = near_.run_offsets[block]; r < near_.run_offsets[block + 1]; ++r)
-      for (std::uint32_t j = near_.runs[r].begin; j < near_.runs[r].end; ++j)
-        f(j, Eigen::Vector3f(cloud_.data_normals.x[j], cloud_.data_normals.y[j], cloud_.data_normals.z[j]));
+    const PointsView p = cloud_.points.sorted();
+    return {{p.x[k], p.y[k], p.z[k]}, {cloud_.normals.x[k], cloud_.normals.y[k], cloud_.normals.z[k]}, static_cast<std::uint32_t>(k)};
   }
   void
-  fill(std::size_t k, Ball& ball) const;
+  collectData(const FloatBox& box, Scratch& scratch) const;
+  void
+  takeGroup(Scratch& scratch) const;
+  void
+  lookAround(Scratch& scratch) const;
   bool
-  turnInward(const Eigen::Vector3f& normal, const Ball& ball, Edge& edge) const;
-  Edge
-  edgeOf(const Eigen::Vector3f& normal, const Ball& ball) const;
-  double
-  placeInStrip(std::size_t k, const Eigen::Vector3f& normal, const Edge& edge, const Ball& ball, double& spacing) const;
+  layStrip(const FaceEdge& edge, const FaceView& view, Strip& strip) const;
+  void
+  moveGroup(Scratch& scratch, SoaBuffer& moves) const;
 
   double length_;
   float reach_, cosine_, half_cosine_;
   FilteredCloudIndex cloud_;
-  Neighborhoods near_;
 };
 
-bool
-GapFiller::onOneFace(std::size_t block) const
+/** All data near a box. */
+void
+GapFiller::collectData(const FloatBox& box, Scratch& scratch) const
 {
-  const Eigen::Vector3f first = normalOf(block * kQueryBlock);
-  const std::size_t end = std::min(cloud_.points.size(), (block + 1) * kQueryBlock);
-  bool one = true;
-  for (std::size_t k = block * kQueryBlock; k < end; ++k)
-    one = one && std::abs(normalOf(k).dot(first)) > half_cosine_;
-  if (one)
-    forCandidates(block, [&](std::uint32_t, const Eigen::Vector3f& normal) { one &= std::abs(normal.dot(first)) > half_cosine_; });
-  return one;
+  scratch.runs.clear();
+  scratch.data.clear();
+  cloud_.tree.collectRuns(box, reach_, scratch.runs);
+  for (const Run run : scratch.runs)
+    for (std::uint32_t j = run.begin; j < run.end; ++j)
+      scratch.data.push_back({{cloud_.data.x[j], cloud_.data.y[j], cloud_.data.z[j]},
+                              {cloud_.data_normals.x[j], cloud_.data_normals.y[j], cloud_.data_normals.z[j]},
+                              static_cast<std::uint32_t>(j * cloud_.stride)});
+}
+
+/** Those of the points that face as the first does. */
+void
+GapFiller::takeGroup(Scratch& scratch) const
+{
+  const Eigen::Vector3f first = scratch.points.front().normal;
+  const auto others = std::stable_partition(scratch.points.begin(), scratch.points.end(),
+                                            [&](const FacePoint& p) { return std::abs(p.normal.dot(first)) > half_cosine_; });
+  scratch.group.assign(scratch.points.begin(), others);
+  if (others == scratch.points.begin()) // no direction at all
+    scratch.points.erase(others);
+  else
+    scratch.points.erase(scratch.points.begin(), others);
+  FaceView& view = scratch.view;
+  view.center.setZero();
+  view.normal.setZero();
+  for (const FacePoint& p : scratch.group) {
+    view.center += p.position;
+    view.normal += p.normal.dot(first) < 0 ? Eigen::Vector3f(-p.normal) : p.normal;
+  }
+  view.center /= static_cast<float>(std::max<std::size_t>(1, scratch.group.size()));
+  view.normal.normalize();
+}
+
+/** What lies about the group. */
+void
+GapFiller::lookAround(Scratch& scratch) const
+{
+  FaceView& view = scratch.view;
+  view.own.clear();
+  view.other.clear();
+  for (const FacePoint& p : scratch.data) {
+    const Eigen::Vector3f offset = p.position - view.center;
+    if (offset.squaredNorm() < reach_ * reach_)
+      (std::abs(p.normal.dot(view.normal)) > cosine_ ? view.own : view.other).push_back({offset, p.normal, p.place});
+  }
+}
+
+/** \return false where there are too few points */
+bool
+GapFiller::layStrip(const FaceEdge& edge, const FaceView& view, Strip& strip) const
+{
+  const Eigen::Vector3f along_edge = view.normal.cross(edge.inward);
+  const double half_width = kHalfWidth * length_;
+  strip.points.clear();
+  for (const FacePoint& p : view.own) {
+    const double weight = 1.0 - std::abs(static_cast<double>(p.position.dot(along_edge))) / half_width;
+    const double distance = edge.distanceOf(p.position), height = static_cast<double>(p.position.dot(view.normal));
+    if (weight > 0 && distance < length_ && distance > -kBeyond * length_ && std::abs(height) < kHeight * length_)
+      strip.points.push_back({distance, weight, p.place});
+  }
+  if (strip.points.size() < kFewestInStrip)
+    return false;
+  std::sort(strip.points.begin(), strip.points.end());
+  double sum = 0;
+  for (StripPoint& p : strip.points)
+    p.weight = sum += p.weight;
+  strip.length = std::max(0.0, strip.points.back().distance);
+  strip.spacing = std::sqrt(strip.length * half_width / sum / static_cast<double>(cloud_.stride));
+  return strip.spacing > 0;
 }
 
 void
-GapFiller::fill(std::size_t k, Ball& ball) const
+GapFiller::moveGroup(Scratch& scratch, SoaBuffer& moves) const
 {
-  ball.own.clear();
-  ball.other.clear();
-  const PointsView points = cloud_.points.sorted();
-  const Eigen::Vector3f own = normalOf(k);
-  forCandidates(k / kQueryBlock, [&](std::uint32_t j, const Eigen::Vector3f& normal) {
-    const Eigen::Vector3f offset(cloud_.data.x[j] - points.x[k], cloud_.data.y[j] - points.y[k], cloud_.data.z[j] - points.z[k]);
-    if (offset.squaredNorm() < reach_ * reach_)
-      (std::abs(normal.dot(own)) > cosine_ ? ball.own : ball.other)
-          .push_back({offset, normal, static_cast<std::uint32_t>(j * cloud_.stride)});
-  });
-}
-
-/** Turns the direction to where the own face is beside the point. \return false where the face lies on both sides */
-bool
-GapFiller::turnInward(const Eigen::Vector3f& normal, const Ball& ball, Edge& edge) const
-{
-  const Eigen::Vector3f along_edge = normal.cross(edge.inward);
-  const double half_width = kHalfWidth * length_;
-  double one_side = 0, other_side = 0;
-  for (const Neighbor& n : ball.own) {
-    const double distance = edge.distance + static_cast<double>(n.offset.dot(edge.inward));
-    const double weight = std::max(0.0, 1.0 - std::abs(static_cast<double>(n.offset.dot(along_edge))) / half_width);
-    if (std::abs(distance) < kBeside * length_)
-      (distance > 0 ? one_side : other_side) += weight * std::abs(distance);
-  }
-  if (one_side < other_side) {
-    edge.inward = -edge.inward;
-    edge.distance = -edge.distance;
-    std::swap(one_side, other_side);
-  }
-  return other_side < kMostBeyond * one_side;
-}
-
-/** The line in which the tangent plane meets the mean plane of the nearest other face. */
-Edge
-GapFiller::edgeOf(const Eigen::Vector3f& normal, const Ball& ball) const
-{
-  Edge edge;
-  const auto nearest = std::min_element(ball.other.begin(), ball.other.end(), [](const Neighbor& a, const Neighbor& b) {
-    return a.offset.squaredNorm() < b.offset.squaredNorm();
-  });
-  if (nearest == ball.other.end())
-    return edge;
-  edge.nearest_other = nearest->offset.norm();
-  const float patch = static_cast<float>(edge.nearest_other) + kPatch * static_cast<float>(length_);
-  Eigen::Vector3f through = Eigen::Vector3f::Zero(), direction = Eigen::Vector3f::Zero();
-  float count = 0;
-  for (const Neighbor& n : ball.other) {
-    const float cosine = n.normal.dot(nearest->normal);
-    if (!(std::abs(cosine) > cosine_) || !(n.offset.squaredNorm() < patch * patch))
+  lookAround(scratch);
+  const FaceEdge edge = nearestEdge(scratch.view, reach_, cosine_);
+  if (!edge.found || edge.distance > kFurthest * length_ || !layStrip(edge, scratch.view, scratch.strip))
+    return;
+  const double spacing = scratch.strip.spacing;
+  if (edge.nearest_other > std::abs(edge.distance) + kCrease * spacing)
+    return;
+  for (const FacePoint& p : scratch.group) {
+    const double distance = edge.distanceOf(p.position - scratch.view.center);
+    const double move = scratch.strip.placeOf({distance, 0.0, p.place}) - distance;
+    if (!(move > kShortest * spacing))
       continue;
-    through += n.offset;
-    direction += cosine < 0 ? Eigen::Vector3f(-n.normal) : n.normal;
-    count += 1;
+    const Eigen::Vector3f inward = (edge.inward - edge.inward.dot(p.normal) * p.normal).normalized() * static_cast<float>(move);
+    const std::size_t to = cloud_.points.order()[p.place];
+    moves.x[to] = inward.x();
+    moves.y[to] = inward.y();
+    moves.z[to] = inward.z();
   }
-  direction.normalize();
-  const Eigen::Vector3f across = direction - direction.dot(normal) * normal;
-  const float sine = across.norm();
-  if (!(sine > 0.1f))
-    return edge;
-  edge.inward = across / sine;
-  edge.distance = -static_cast<double>(through.dot(direction) / count / sine);
-  edge.found = turnInward(normal, ball, edge);
-  return edge;
 }
 
-/** Distance from the edge at which the point would be if the points of the strip lay evenly. \param[out] spacing in the strip */
-double
-GapFiller::placeInStrip(std::size_t k, const Eigen::Vector3f& normal, const Edge& edge, const Ball& ball, double& spacing) const
+SoaBuffer
+GapFiller::moves() const
 {
-  const Eigen::Vector3f along_edge = normal.cross(edge.inward);
-  const float half_width = kHalfWidth * static_cast<float>(length_), highest = kHeight * static_cast<float>(length_);
-  double all = 0, before = 0, furthest = 0;
-  std::size_t count = 0;
-  for (const Neighbor& n : ball.own) {
-    const float aside = std::abs(n.offset.dot(along_edge)), step = n.offset.dot(edge.inward);
-    const double distance = edge.distance + static_cast<double>(step);
-    if (!(aside < half_width) || !(std::abs(n.offset.dot(normal)) < highest) || !(distance < length_) || !(distance > -0.25 * length_))
-      continue;
-    const double weight = 1.0 - static_cast<double>(aside / half_width);
-    all += weight;
-    before += step < 0 || (step == 0 && n.place < k) ? weight : step == 0 && n.place == k ? 0.5 * weight : 0.0;
-    furthest = std::max(furthest, distance);
-    ++count;
-  }
-  if (count < kFewestInStrip || !(all > 0))
-    return 0;
-  spacing = std::sqrt(furthest * static_cast<double>(half_width) / all / static_cast<double>(cloud_.stride));
-  const double stay = kStay * spacing, place = furthest * before / all;
-  return (place - stay) * furthest / std::max(furthest - stay, spacing);
-}
-
-Eigen::Vector3f
-GapFiller::moveOf(std::size_t k, Ball& ball) const
-{
-  const Eigen::Vector3f normal = normalOf(k), none = Eigen::Vector3f::Zero();
-  fill(k, ball);
-  const Edge edge = edgeOf(normal, ball);
-  if (!edge.found || edge.distance > 0.5 * length_)
-    return none;
-  double spacing = 0;
-  const double place = placeInStrip(k, normal, edge, ball, spacing);
-  if (!(place - edge.distance > kShortest * spacing) || edge.nearest_other > std::abs(edge.distance) + kCrease * spacing)
-    return none;
-  return static_cast<float>(place - edge.distance) * edge.inward;
+  const std::size_t size = cloud_.points.size();
+  SoaBuffer moves(size);
+  const auto position = [p = cloud_.points.sorted()](std::size_t k) { return std::array<float, 3>{p.x[k], p.y[k], p.z[k]}; };
+  parallelBlocks(size, kPointsPerTask, cloud_.threads, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
+    forPatches(begin, end, static_cast<float>(kPatchWidth * length_), position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+      collectData(box, scratch);
+      scratch.points.clear();
+      for (std::size_t k = first; k < last; ++k)
+        scratch.points.push_back(pointAt(k));
+      while (!scratch.points.empty()) {
+        takeGroup(scratch);
+        moveGroup(scratch, moves);
+      }
+    });
+  });
+  return moves;
 }
 
 } // namespace
@@ -227,26 +233,9 @@ movesIntoGaps(const GapFillingParameters& p, PointsView positions, NormalsView n
   checkRange("radius", p.radius, p.radius > 0.0, "> 0");
   checkRange("spacing", p.spacing, p.spacing > 0.0, "> 0");
   checkRange("angle", p.angle, p.angle > 0.0 && p.angle < 90.0, "> 0 and < 90");
-  SoaBuffer moves(positions.size);
   if (positions.size == 0)
-    return moves;
-  const GapFiller filler(p, positions, normals);
-  const FilteredCloudIndex& cloud = filler.cloud();
-  parallelBlocks(blockCount(positions.size), kBlocksPerTask, cloud.threads, [&](std::size_t begin, std::size_t end) {
-    Ball ball;
-    for (std::size_t block = begin; block < end; ++block) {
-      if (filler.onOneFace(block))
-        continue;
-      for (std::size_t k = block * kQueryBlock; k < std::min(positions.size, (block + 1) * kQueryBlock); ++k) {
-        const Eigen::Vector3f move = filler.moveOf(k, ball);
-        const std::size_t to = cloud.points.order()[k];
-        moves.x[to] = move.x();
-        moves.y[to] = move.y();
-        moves.z[to] = move.z();
-      }
-    }
-  });
-  return moves;
+    return {};
+  return GapFiller(p, positions, normals).moves();
 }
 
 } // namespace pcl_gpf

@@ -163,15 +163,6 @@ foresee(const RimlsMeshParameters& parameters, PointsView points, const PointInd
   refuseTooMuchMemory(done.expected_memory, static_cast<double>(parameters.memory_limit), side / done.cell_size);
 }
 
-/** The part [begin, end] of the whole progress. */
-ProgressCallback
-partOf(const ProgressCallback& progress, double begin, double end)
-{
-  if (!progress)
-    return {};
-  return [&progress, begin, end](double fraction) { return progress(begin + (end - begin) * fraction); };
-}
-
 } // namespace
 
 void

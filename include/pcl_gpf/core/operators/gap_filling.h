@@ -19,16 +19,18 @@ struct GapFillingParameters {
   unsigned number_of_threads = 0;
 };
 
-/** \brief Moves, each within the tangent plane of its point, that take the points on a sharp edge into the empty band beside it.
+/** \brief Moves, each within the tangent plane of its point, that take points piled up on a sharp edge into the empty band beside it.
  *
- * About each point near an edge a strip of its own face is laid across the edge. A point that has the k-th share of the strip's
- * points between itself and the edge belongs to the k-th share of the strip's length: where points lie evenly it is there already, on
- * the edge it is not. Points move away from their edge only, so that none crosses it, and only by more than half a spacing; the first half spacing's
- * worth of points stays on the edge. Points without another face near them, and all of open borders, stay. Signs of normals do not matter.
+ * A strip of the own face is laid across the edge, beside each small group of points. A point that has a tenth of the strip's points
+ * between itself and the edge belongs a tenth of the strip's length away from it: where points lie evenly it is there already, on the
+ * edge it is not. Points move away from the edge only, so that none crosses it, and only by more than half a spacing; three quarters of
+ * a spacing's worth of them stay on the edge. Points without another face near them, and all of open borders, stay. Signs of normals
+ * do not matter.
  *
  * \param[in] positions filtered points, any order \param[in] normals filtered, unit length, one per point
  * \return a move for every point, 0 for most \throws InvalidParameter
- * Cost: O(N) times the points in the ball `radius`, near edges.
+ * Cost: O(N), about that of the whole filter; bounded where points are dense.
+ * \note Repulsion does not do this: the points on an edge hold each other there, and those behind the band push outwards.
  */
 PCL_GPF_CORE_EXPORT SoaBuffer
 movesIntoGaps(const GapFillingParameters& parameters, PointsView positions, NormalsView normals);
