@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud_flags.h"
 
-#include "gap_stage.h"
-
 #include <pcl_gpf/core/operators/edge_points.h>
 #include <pcl_gpf/core/operators/local_noise.h>
 #include <pcl_gpf/core/operators/outlier_probability.h>
@@ -10,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace pcl_gpf {
 
@@ -29,6 +26,15 @@ placesOf(const Packed& packed, const std::vector<std::uint32_t>& samples, const 
     places.z[k] = points.z[from] + displacements.z[k];
   }
   return places;
+}
+
+std::vector<float>
+lengthsOf(const SoaBuffer& vectors)
+{
+  std::vector<float> lengths(vectors.size());
+  for (std::size_t k = 0; k < lengths.size(); ++k)
+    lengths[k] = std::sqrt(vectors.x[k] * vectors.x[k] + vectors.y[k] * vectors.y[k] + vectors.z[k] * vectors.z[k]);
+  return lengths;
 }
 
 /** Noise that judges outliers: as estimated, which is that of the quietest parts of a cloud, or that of most of the moves. */
@@ -53,7 +59,7 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
   if (!(scale.spacing > 0.0) || !(p.flags.outliers || p.flags.sigma || p.flags.edges))
     return;
   const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
-  const std::vector<float> moves = cloud.moves.empty() ? lengthsOf(cloud.displacements) : std::move(cloud.moves);
+  const std::vector<float> moves = lengthsOf(cloud.before_gaps.size() > 0 ? cloud.before_gaps : cloud.displacements);
   if (p.flags.outliers)
     cloud.outlier = outlierProbabilities(
         {noiseOfMoves(scale.noise, moves), scale.spacing, data_radius, p.gpf.outlier_weight, p.number_of_threads}, *packed.index,

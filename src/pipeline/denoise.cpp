@@ -188,7 +188,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
       result.fine[k] = 1;
   }
   findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
-  limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud.displacements, result);
+  limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud, result);
   unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);
   result.seconds_filter += watch.lap();
   return result;

@@ -8,13 +8,9 @@
 
 namespace pcl_gpf {
 
-/** Rounds of gap filling, if any are asked for. Notes in `cloud` what they did, movements in cloud units, and how far noise had been
- * taken out of each point before it moved sideways. */
+/** Rounds of gap filling, if any are asked for. Notes in `cloud` what they did, movements in cloud units, and where each point was before
+ * it moved sideways. */
 void
 fillGaps(const GPFParameters& parameters, const LocalFrame& frame, const ProgressCallback& progress, GPFState& state, FilteredCloud& cloud);
-
-/** Length of each. */
-std::vector<float>
-lengthsOf(const SoaBuffer& vectors);
 
 } // namespace pcl_gpf

@@ -6,11 +6,11 @@
 namespace pcl_gpf {
 
 /** Limits how far each point moves: `max_move` where it is set, else 6 times the noise; none where the radius is given, in the paper's
- * recursion, and where the noise is uneven or cannot be told. Notes the limit and how many points it cut in `result`.
+ * recursion, and where the noise is uneven or cannot be told. Where gaps were filled, 6 times the noise bounds the move before that. Notes the limit and how many points it cut in `result`.
  * \param[in] noise normalised frame, times the strength
  * \param[in] spacing normalised frame
  */
 void
-limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, SoaBuffer& moves, DenoiseResult& result);
+limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, FilteredCloud& cloud, DenoiseResult& result);
 
 } // namespace pcl_gpf

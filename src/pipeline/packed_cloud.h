@@ -27,7 +27,7 @@ struct Packed {
 struct FilteredCloud {
   SoaBuffer displacements, normals;
   std::vector<std::uint8_t> isolated;
-  std::vector<float> moves;          ///< lengths of the displacements before gap filling; empty: those of the displacements
+  SoaBuffer before_gaps;             ///< displacements before gap filling; empty where there was none
   std::vector<IterationStats> gap_iterations; ///< rounds of gap filling, movements in cloud units
   std::vector<float> outlier, sigma; ///< empty where not wanted
   std::vector<std::uint8_t> edge;

@@ -237,6 +237,20 @@ TEST(Denoise, fillsTheBandBesideEdgesAndTakesNoneOfItsMovesForAnOutlier)
   EXPECT_LE(outliers_after, outliers + 6); // of 6000: where points are put counts, too
 }
 
+TEST(Denoise, gapFillingLeavesACleanCloudAsItIs)
+{
+  const Shape shape = cube(6000);
+  DenoiseParameters p;
+  p.gpf.normal_weight_floor = 1.0; // draws points onto edges, where the limit of moves takes them back
+  p.gpf.gap_iterations = 2;
+  const DenoiseResult result = denoise(Cloud(shape).input(), p);
+  EXPECT_TRUE(std::isinf(result.max_move));
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    moved += distance(at(result, i), shape.points[i]) > 1e-6;
+  EXPECT_LT(moved, shape.size() / 100);
+}
+
 TEST(Denoise, noMoveIsLongerThanTheLimit)
 {
   const Shape shape = cube(5000, 0.02, 1);

@@ -25,7 +25,7 @@ attracting(double support_radius)
   p.data_term = DataTerm::PointToPlane;
   p.normal_angle = 90.0;
   p.normal_weight_floor = 1.0;
-  p.maximum_iterations = 30;
+  p.maximum_iterations = 15;
   p.convergence_threshold = 0.0;
   return p;
 }
