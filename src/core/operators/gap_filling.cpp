@@ -13,6 +13,7 @@
 #include <iterator>
 #include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace pcl_gpf {
@@ -31,6 +32,14 @@ constexpr double kCrease = 3.0;
 constexpr std::size_t kFewestInStrip = 8;
 /** Radius, as a share of the length, of the ball that holds kMostData at most: twice as many in the ball about a strip. */
 constexpr double kDense = 0.7;
+
+using Vector = Eigen::Vector3f;
+
+Eigen::Map<const Vector>
+asVector(const std::array<float, 3>& values)
+{
+  return Eigen::Map<const Vector>(values.data());
+}
 
 /** A point of a strip: how far from the edge, and its weight; ties go by place. */
 struct StripPoint {
@@ -123,23 +132,24 @@ GapFiller::collectData(const FloatBox& box, Scratch& scratch) const
 void
 GapFiller::takeGroup(Scratch& scratch) const
 {
-  const Eigen::Vector3f first = scratch.points.front().normal;
+  const Vector first = asVector(scratch.points.front().normal);
   const auto others = std::stable_partition(scratch.points.begin(), scratch.points.end(),
-                                            [&](const FacePoint& p) { return std::abs(p.normal.dot(first)) > half_cosine_; });
+                                            [&](const FacePoint& p) { return std::abs(asVector(p.normal).dot(first)) > half_cosine_; });
   scratch.group.assign(scratch.points.begin(), others);
   if (others == scratch.points.begin()) // no direction at all
     scratch.points.erase(others);
   else
     scratch.points.erase(scratch.points.begin(), others);
-  FaceView& view = scratch.view;
-  view.center.setZero();
-  view.normal.setZero();
+  Eigen::Map<Vector> center(scratch.view.center.data()), normal(scratch.view.normal.data());
+  center.setZero();
+  normal.setZero();
   for (const FacePoint& p : scratch.group) {
-    view.center += p.position;
-    view.normal += p.normal.dot(first) < 0 ? Eigen::Vector3f(-p.normal) : p.normal;
+    const Vector own = asVector(p.normal);
+    center += asVector(p.position);
+    normal += own.dot(first) < 0 ? Vector(-own) : own;
   }
-  view.center /= static_cast<float>(std::max<std::size_t>(1, scratch.group.size()));
-  view.normal.normalize();
+  center /= static_cast<float>(std::max<std::size_t>(1, scratch.group.size()));
+  normal.normalize();
 }
 
 /** What lies about the group. */
@@ -150,9 +160,10 @@ GapFiller::lookAround(Scratch& scratch) const
   view.own.clear();
   view.other.clear();
   for (const FacePoint& p : scratch.data) {
-    const Eigen::Vector3f offset = p.position - view.center;
+    const Vector offset = asVector(p.position) - asVector(view.center);
     if (offset.squaredNorm() < reach_ * reach_)
-      (std::abs(p.normal.dot(view.normal)) > cosine_ ? view.own : view.other).push_back({offset, p.normal, p.place});
+      (std::abs(asVector(p.normal).dot(asVector(view.normal))) > cosine_ ? view.own : view.other)
+          .push_back({{offset.x(), offset.y(), offset.z()}, p.normal, p.place});
   }
 }
 
@@ -160,12 +171,12 @@ GapFiller::lookAround(Scratch& scratch) const
 bool
 GapFiller::layStrip(const FaceEdge& edge, const FaceView& view, Strip& strip) const
 {
-  const Eigen::Vector3f along_edge = view.normal.cross(edge.inward);
+  const Vector normal = asVector(view.normal), along_edge = normal.cross(asVector(edge.inward));
   const double half_width = kHalfWidth * length_;
   strip.points.clear();
   for (const FacePoint& p : view.own) {
-    const double weight = 1.0 - std::abs(static_cast<double>(p.position.dot(along_edge))) / half_width;
-    const double distance = edge.distanceOf(p.position), height = static_cast<double>(p.position.dot(view.normal));
+    const double weight = 1.0 - std::abs(static_cast<double>(asVector(p.position).dot(along_edge))) / half_width;
+    const double distance = edge.distanceOf(p.position), height = static_cast<double>(asVector(p.position).dot(normal));
     if (weight > 0 && distance < length_ && distance > -kBeyond * length_ && std::abs(height) < kHeight * length_)
       strip.points.push_back({distance, weight, p.place});
   }
@@ -191,11 +202,12 @@ GapFiller::moveGroup(Scratch& scratch, SoaBuffer& moves) const
   if (edge.nearest_other > std::abs(edge.distance) + kCrease * spacing)
     return;
   for (const FacePoint& p : scratch.group) {
-    const double distance = edge.distanceOf(p.position - scratch.view.center);
+    const Vector offset = asVector(p.position) - asVector(scratch.view.center), normal = asVector(p.normal), across = asVector(edge.inward);
+    const double distance = edge.distanceOf({offset.x(), offset.y(), offset.z()});
     const double move = scratch.strip.placeOf({distance, 0.0, p.place}) - distance;
     if (!(move > kShortest * spacing))
       continue;
-    const Eigen::Vector3f inward = (edge.inward - edge.inward.dot(p.normal) * p.normal).normalized() * static_cast<float>(move);
+    const Vector inward = (across - across.dot(normal) * normal).normalized() * static_cast<float>(move);
     const std::size_t to = cloud_.points.order()[p.place];
     moves.x[to] = inward.x();
     moves.y[to] = inward.y();
