@@ -3,6 +3,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "../check_range.h"
+#include "edge_strip.h"
 #include "face_edge.h"
 #include "filtered_cloud_index.h"
 #include "patches.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,11 +25,13 @@ constexpr std::size_t kPointsPerTask = 2048;
 /** Shares of the length of a strip: its half width, the largest height of its points above the tangent plane, how far beyond the edge
  * it begins, how far from the edge points are moved, and the width of patches whose points share a strip. */
 constexpr double kHalfWidth = 0.25, kHeight = 0.25, kBeyond = 0.25, kFurthest = 0.5, kPatchWidth = 0.125;
-/** Points that stay on the edge, and shortest move, in spacings. */
-constexpr double kStay = 0.75, kShortest = 0.5;
+/** Shortest move, in spacings. */
+constexpr double kShortest = 0.5;
 /** Furthest that the nearest point of the other face may be beyond the edge, in spacings: else the surface is curved, not creased. */
 constexpr double kCrease = 3.0;
 constexpr std::size_t kFewestInStrip = 8;
+/** Directions that the points of a patch may face; more are no faces. */
+constexpr std::size_t kMostGroups = 16;
 /** Radius, as a share of the length, of the ball that holds kMostData at most: twice as many in the ball about a strip. */
 constexpr double kDense = 0.7;
 
@@ -40,35 +42,6 @@ asVector(const std::array<float, 3>& values)
 {
   return Eigen::Map<const Vector>(values.data());
 }
-
-/** A point of a strip: how far from the edge, and its weight; ties go by place. */
-struct StripPoint {
-  double distance, weight;
-  std::uint32_t place;
-
-  bool
-  operator<(const StripPoint& other) const
-  {
-    return distance != other.distance ? distance < other.distance : place < other.place;
-  }
-};
-
-/** The points of a face beside an edge, in the order of their distance from it. */
-struct Strip {
-  std::vector<StripPoint> points; ///< weights summed up from the first
-  double length = 0;              ///< as far as there are points
-  double spacing = 0;             ///< of the cloud's points in it
-
-  /** Where a point would be if the points lay evenly, less those that stay on the edge. */
-  double
-  placeOf(const StripPoint& point) const
-  {
-    const auto next = std::lower_bound(points.begin(), points.end(), point);
-    const double before = next == points.begin() ? 0.0 : std::prev(next)->weight;
-    const double stay = kStay * spacing;
-    return (length * before / points.back().weight - stay) * length / std::max(length - stay, spacing);
-  }
-};
 
 class GapFiller {
 public:
@@ -89,15 +62,11 @@ private:
     std::vector<Run> runs;
     std::vector<FacePoint> data, points, group;
     FaceView view;
-    Strip strip;
+    EdgeStrip strip;
   };
 
-  FacePoint
-  pointAt(std::size_t k) const
-  {
-    const PointsView p = cloud_.points.sorted();
-    return {{p.x[k], p.y[k], p.z[k]}, {cloud_.normals.x[k], cloud_.normals.y[k], cloud_.normals.z[k]}, static_cast<std::uint32_t>(k)};
-  }
+  void
+  takePoints(std::size_t first, std::size_t last, std::vector<FacePoint>& points) const;
   void
   collectData(const FloatBox& box, Scratch& scratch) const;
   void
@@ -105,7 +74,7 @@ private:
   void
   lookAround(Scratch& scratch) const;
   bool
-  layStrip(const FaceEdge& edge, const FaceView& view, Strip& strip) const;
+  layStrip(const FaceEdge& edge, const FaceView& view, EdgeStrip& strip) const;
   void
   moveGroup(Scratch& scratch, SoaBuffer& moves) const;
 
@@ -113,6 +82,15 @@ private:
   float reach_, cosine_, half_cosine_;
   FilteredCloudIndex cloud_;
 };
+
+void
+GapFiller::takePoints(std::size_t first, std::size_t last, std::vector<FacePoint>& points) const
+{
+  const PointsView p = cloud_.points.sorted();
+  points.clear();
+  for (std::size_t k = first; k < last; ++k)
+    points.push_back({{p.x[k], p.y[k], p.z[k]}, {cloud_.normals.x[k], cloud_.normals.y[k], cloud_.normals.z[k]}, static_cast<std::uint32_t>(k)});
+}
 
 /** All data near a box. */
 void
@@ -169,7 +147,7 @@ GapFiller::lookAround(Scratch& scratch) const
 
 /** \return false where there are too few points */
 bool
-GapFiller::layStrip(const FaceEdge& edge, const FaceView& view, Strip& strip) const
+GapFiller::layStrip(const FaceEdge& edge, const FaceView& view, EdgeStrip& strip) const
 {
   const Vector normal = asVector(view.normal), along_edge = normal.cross(asVector(edge.inward));
   const double half_width = kHalfWidth * length_;
@@ -225,10 +203,8 @@ GapFiller::moves() const
     Scratch scratch;
     forPatches(begin, end, static_cast<float>(kPatchWidth * length_), position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
       collectData(box, scratch);
-      scratch.points.clear();
-      for (std::size_t k = first; k < last; ++k)
-        scratch.points.push_back(pointAt(k));
-      while (!scratch.points.empty()) {
+      takePoints(first, last, scratch.points);
+      for (std::size_t group = 0; group < kMostGroups && !scratch.points.empty(); ++group) {
         takeGroup(scratch);
         moveGroup(scratch, moves);
       }
