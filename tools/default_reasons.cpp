@@ -21,6 +21,8 @@ const Reason kReasons[] = {
     {"gpf.normal_angle", "faces do not pull each other"},
     {"gpf.normal_weight_floor", "points beside an edge still find the other face"},
     {"gpf.own_tangent_repulsion", "points at edges stay on their face"},
+    {"gpf.gap_iterations", "no band empties beside edges unless normals do not weigh; points stay in place"},
+    {"gpf.gap_radius_factor", "twice the width of an empty band"},
     {"gpf.convergence_threshold", "share of h below which nothing is seen"},
     {"bilateral.angle", "edges above it stay sharp"},
     {"bilateral.iterations", "enough for edges to become sharp"},

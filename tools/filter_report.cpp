@@ -31,6 +31,15 @@ iterationsJson(const std::vector<IterationStats>& iterations, double diagonal)
   return list;
 }
 
+Json
+gapsJson(const std::vector<IterationStats>& rounds)
+{
+  Json list = Json::array();
+  for (const IterationStats& stats : rounds)
+    list.push_back({{"movement", stats.mean_movement}, {"max_movement", stats.max_movement}, {"seconds", stats.seconds}});
+  return list;
+}
+
 std::size_t
 countOnes(const std::vector<std::uint8_t>& flags)
 {
@@ -75,6 +84,8 @@ filterReport(const FilterRun& run, const DenoiseResult& result, const std::vecto
   report["iterations"] = iterationsJson(result.iterations, result.scale.diagonal);
   if (!result.fine_iterations.empty())
     report["fine_iterations"] = iterationsJson(result.fine_iterations, result.scale.diagonal);
+  if (!result.gap_iterations.empty())
+    report["gap_iterations"] = gapsJson(result.gap_iterations);
   report["movement"] = {{"mean", run.movement.mean}, {"rms", run.movement.rms}, {"p95", run.movement.p95},
                         {"max", run.movement.max}, {"limited", std::max(result.limited_points, run.movement.limited)}};
   report["threads"] = run.threads;
@@ -111,6 +122,10 @@ summaryText(const FilterRun& run, const DenoiseResult& result)
                      ", diagonal " + shortNumber(result.scale.diagonal) + ", normals " + run.normals + "\n";
   text += std::to_string(result.iterations.size()) + " iterations; moved: rms " + shortNumber(run.movement.rms) + ", p95 " +
           shortNumber(run.movement.p95) + ", max " + shortNumber(run.movement.max) + "\n";
+  if (!result.gap_iterations.empty())
+    text += std::to_string(result.gap_iterations.size()) + " rounds of gap filling; moved first: mean " +
+            shortNumber(result.gap_iterations.front().mean_movement) + ", max " +
+            shortNumber(result.gap_iterations.front().max_movement) + "\n";
   if (!result.fine.empty())
     text += std::to_string(countOnes(result.fine)) + " points from the fine scale, the others from the coarse one\n";
   const std::size_t limited = std::max(result.limited_points, run.movement.limited);

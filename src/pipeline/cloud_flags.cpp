@@ -70,7 +70,7 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
   if (!(scale.spacing > 0.0) || !(p.flags.outliers || p.flags.sigma || p.flags.edges))
     return;
   const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
-  const std::vector<float> moves = lengthsOf(cloud.displacements);
+  const std::vector<float> moves = lengthsOf(cloud.before_gaps.size() > 0 ? cloud.before_gaps : cloud.displacements);
   if (p.flags.outliers && !tellsOutliers(p, scale, packed.rows.size()))
     cloud.outlier.assign(moves.size(), 0.0f);
   else if (p.flags.outliers)

@@ -4,6 +4,7 @@
 
 #include "cloud_flags.h"
 #include "foresight.h"
+#include "gap_stage.h"
 #include "move_limit.h"
 #include "outlier_repeat.h"
 #include "packed_cloud.h"
@@ -139,6 +140,7 @@ project(const GPFParameters& parameters, FilterScale filter_scale, const std::ve
     stats.max_movement = packed.frame.lengthToWorld(stats.max_movement);
   }
   FilteredCloud cloud;
+  fillGaps(parameters, packed.frame, stageOf(stageName("gaps", filter_scale), progress), state, cloud);
   cloud.isolated = state.isolated();
   cloud.normals = SoaBuffer(state.size());
   state.normals(cloud.normals.view());
@@ -173,6 +175,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
   const DenoiseParameters p = parametersAt(first, parameters, scale, packed.frame, result);
   refuseExcessiveStages(p, packed, samples.empty() ? packed.rows.size() : samples.size());
   FilteredCloud cloud = filterAt(first, p, samples, result.iterations);
+  result.gap_iterations = std::move(cloud.gap_iterations);
   watch.lap();
   if (two_scales) {
     const DenoiseParameters fine = parametersAt(FilterScale::Fine, parameters, scale, packed.frame, result);
@@ -188,7 +191,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
       cloud.fine[k] = 1;
   }
   findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
-  limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud.displacements, result);
+  limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud, result);
   unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);
   result.seconds_filter += watch.lap();
   return result;

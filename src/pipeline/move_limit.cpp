@@ -68,22 +68,18 @@ longestMove(const DenoiseParameters& wanted, double noise, double spacing, const
   return noise > kClean * spacing && shareOfLonger(limit, moves) > kUneven ? kNoLimit : limit;
 }
 
-/** \return how many moves were cut to `longest` */
-std::size_t
-cutMoves(double longest, SoaBuffer& moves)
+/** Cuts a move to `longest`. \return whether it was longer */
+bool
+cutMove(double longest, std::size_t k, const SoaBuffer& from, SoaBuffer& to)
 {
-  std::size_t limited = 0;
-  for (std::size_t k = 0; k < moves.size(); ++k) {
-    const double distance = length(moves, k);
-    if (!(distance > longest))
-      continue;
-    const double share = longest / distance * (1.0 - 1e-6); // rounding must not pass the limit
-    moves.x[k] = static_cast<float>(moves.x[k] * share);
-    moves.y[k] = static_cast<float>(moves.y[k] * share);
-    moves.z[k] = static_cast<float>(moves.z[k] * share);
-    ++limited;
-  }
-  return limited;
+  const double distance = length(from, k);
+  if (!(distance > longest))
+    return false;
+  const double share = longest / distance * (1.0 - 1e-6); // rounding must not pass the limit
+  to.x[k] = static_cast<float>(from.x[k] * share);
+  to.y[k] = static_cast<float>(from.y[k] * share);
+  to.z[k] = static_cast<float>(from.z[k] * share);
+  return true;
 }
 
 ParameterOrigin
@@ -102,12 +98,22 @@ originOf(const DenoiseParameters& wanted, double limit)
 } // namespace
 
 void
-limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, SoaBuffer& moves, DenoiseResult& result)
+limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, FilteredCloud& cloud, DenoiseResult& result)
 {
+  // The noise bounds what the filter may do: a point that it moved too far has no business on an edge, or in the gap beside it. The
+  // user's limit bounds everything.
+  const bool before_gaps = wanted.max_move == 0.0 && cloud.before_gaps.size() > 0;
+  const SoaBuffer& moves = before_gaps ? cloud.before_gaps : cloud.displacements;
   const double longest = longestMove(wanted, noise, spacing, frame, moves);
-  result.limited_points = cutMoves(longest, moves);
+  result.limited_points = 0;
+  for (std::size_t k = 0; k < moves.size(); ++k)
+    result.limited_points += cutMove(longest, k, moves, cloud.displacements);
   result.max_move = frame.lengthToWorld(longest);
   result.parameters.push_back(originOf(wanted, result.max_move));
+  if (!before_gaps || std::isinf(longest))
+    return;
+  result.parameters.back().reason += " in the iterations, none for gap filling";
+  result.parameters.back().value = result.max_move = std::numeric_limits<double>::infinity(); // of the whole move
 }
 
 } // namespace pcl_gpf

@@ -130,6 +130,7 @@ repeatWithoutOutliers(const DenoiseInput& input, DenoiseResult first, const std:
   first.parameters = std::move(second.parameters);
   first.iterations = std::move(second.iterations);
   first.fine_iterations = std::move(second.fine_iterations);
+  first.gap_iterations = std::move(second.gap_iterations);
   first.seconds_normals += second.seconds_normals;
   first.seconds_bilateral += second.seconds_bilateral;
   first.seconds_filter += second.seconds_filter;

@@ -28,6 +28,8 @@ struct FilteredCloud {
   SoaBuffer displacements, normals;
   std::vector<std::uint8_t> isolated;
   std::vector<std::uint8_t> fine; ///< 1 = of the fine scale; empty where there is one scale
+  SoaBuffer before_gaps;          ///< displacements before gap filling; empty where there was none
+  std::vector<IterationStats> gap_iterations; ///< rounds of gap filling, movements in cloud units
   std::vector<float> outlier;     ///< empty where not wanted
   std::vector<double> sigma;      ///< cloud units; empty where not wanted
   std::vector<std::uint8_t> edge;

@@ -137,6 +137,8 @@ TEST(GPF, SettersAndParametersAreOne)
   p.seed = 6;
   p.maximum_iterations = 7;
   p.convergence_threshold = 0.8;
+  p.gap_iterations = 2;
+  p.gap_radius_factor = 1.5;
   p.number_of_threads = 9;
   gpf.setParameters(p);
   EXPECT_EQ(gpf.getSupportRadius(), 1);
@@ -154,6 +156,8 @@ TEST(GPF, SettersAndParametersAreOne)
   EXPECT_EQ(gpf.getSeed(), 6u);
   EXPECT_EQ(gpf.getMaximumIterations(), 7u);
   EXPECT_EQ(gpf.getConvergenceThreshold(), 0.8);
+  EXPECT_EQ(gpf.getGapIterations(), 2u);
+  EXPECT_EQ(gpf.getGapRadiusFactor(), 1.5);
   EXPECT_EQ(gpf.getNumberOfThreads(), 9u);
 
   GPF<PointT> other;
@@ -172,6 +176,8 @@ TEST(GPF, SettersAndParametersAreOne)
   other.setSeed(6);
   other.setMaximumIterations(7);
   other.setConvergenceThreshold(0.8);
+  other.setGapIterations(2);
+  other.setGapRadiusFactor(1.5);
   other.setNumberOfThreads(9);
   const Cloud::Ptr cloud = toCloud<PointT>(cube(500, 0.01));
   EXPECT_TRUE(sameBits(run(gpf, cloud), run(other, cloud)));
@@ -203,6 +209,8 @@ TEST(GPF, EveryParameterOutOfRangeThrows)
       {"sample_ratio", [&](GPFParameters& p) { p.sample_ratio = 0; }},
       {"sample_ratio", [&](GPFParameters& p) { p.sample_ratio = nan; }},
       {"maximum_iterations", [&](GPFParameters& p) { p.maximum_iterations = 10001; }},
+      {"gap_iterations", [&](GPFParameters& p) { p.gap_iterations = 101; }},
+      {"gap_radius_factor", [&](GPFParameters& p) { p.gap_radius_factor = 9; }},
       {"convergence_threshold", [&](GPFParameters& p) { p.convergence_threshold = -1; }}};
   for (const auto& mistake : mistakes) {
     GPFParameters parameters;
@@ -217,6 +225,33 @@ TEST(GPF, EveryParameterOutOfRangeThrows)
       EXPECT_NE(std::string(error.what()).find(mistake.first), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(GPF, FillsGapsAndTellsWhatItDid)
+{
+  const Cloud::Ptr cloud = toCloud<PointT>(cube(4000, 0.01));
+  GPF<PointT> gpf;
+  gpf.setSupportRadius(0.2);
+  gpf.setNormalWeightFloor(1);
+  gpf.setConvergenceThreshold(0);
+  const Cloud before = run(gpf, cloud);
+  EXPECT_TRUE(gpf.getStatistics().gap_iterations.empty());
+  gpf.setGapIterations(1);
+  std::vector<double> fractions;
+  gpf.setProgressCallback([&](double fraction) { fractions.push_back(fraction); return true; });
+  const Cloud after = run(gpf, cloud);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.back(), 1.0);
+  ASSERT_EQ(gpf.getStatistics().gap_iterations.size(), 1u);
+  double furthest = 0; // cloud units, as in the statistics; points that were not moved keep every bit
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    furthest = std::max(furthest, distance(position(before[i]), position(after[i])));
+    same += distance(position(before[i]), position(after[i])) == 0;
+  }
+  EXPECT_NEAR(furthest, gpf.getStatistics().gap_iterations[0].max_movement, 1e-4);
+  EXPECT_GT(furthest, 0.02);
+  EXPECT_GT(same, cloud->size() / 3);
 }
 
 // ---------------------------------------------------------------- laws

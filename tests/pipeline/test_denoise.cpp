@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/edge_band.h"
 #include "support/local_cloud.h"
 
 #include <pcl_gpf/core/errors.h>
@@ -195,13 +196,59 @@ TEST(Denoise, twoScalesKeepABossThatTheCoarseOneTakesAway)
 TEST(Denoise, oneScaleWhereTheUserSetsALengthOrPointsMoveSideways)
 {
   const Cloud cloud(cube(3000, 0.01, 1));
-  std::vector<DenoiseParameters> all(4);
+  std::vector<DenoiseParameters> all(5);
   all[0].gpf.support_radius = 0.3;
   all[1].bilateral.neighbors = 20;
   all[2].gpf.repulsion_weight = 0.1;
   all[3].gpf = GPFParameters::paper();
+  all[4].gpf.gap_iterations = 1;
   for (const DenoiseParameters& p : all)
     EXPECT_TRUE(denoise(cloud.input(), p).fine.empty());
+}
+
+TEST(Denoise, fillsTheBandBesideEdgesAndTakesNoneOfItsMovesForAnOutlier)
+{
+  const Shape shape = cube(12000, 0.012, 1);
+  const Cloud cloud(shape);
+  DenoiseParameters p;
+  p.gpf = GPFParameters::paper();
+  p.gpf.variance_update = VarianceUpdate::Fixed;
+  p.gpf.posterior_normalization = false;
+  const auto measure = [&](double& band, double& error, double& outliers) {
+    const DenoiseResult result = denoise(cloud.input(), p);
+    std::vector<Vector3> points, normals;
+    error = outliers = 0;
+    for (std::size_t i = 0; i < result.x.size(); ++i) {
+      points.push_back(at(result, i));
+      normals.push_back({result.normal_x[i], result.normal_y[i], result.normal_z[i]});
+      error += distanceToUnitCube(points.back());
+      outliers += result.outlier[i] > DenoiseResult::kOutlier;
+    }
+    band = cubeBand(points, normals);
+    EXPECT_EQ(result.gap_iterations.size(), p.gpf.gap_iterations);
+  };
+  double band = 0, error = 0, outliers = 0, band_after = 0, error_after = 0, outliers_after = 0;
+  measure(band, error, outliers);
+  p.gpf.gap_iterations = 2;
+  measure(band_after, error_after, outliers_after);
+  EXPECT_GE(band, 3.0);
+  EXPECT_LE(band_after, 1.5);
+  EXPECT_LE(error_after, 1.05 * error);
+  EXPECT_LE(outliers_after, outliers + 6); // of 6000: where points are put counts, too
+}
+
+TEST(Denoise, gapFillingLeavesACleanCloudAsItIs)
+{
+  const Shape shape = cube(6000);
+  DenoiseParameters p;
+  p.gpf.normal_weight_floor = 1.0; // draws points onto edges, where the limit of moves takes them back
+  p.gpf.gap_iterations = 2;
+  const DenoiseResult result = denoise(Cloud(shape).input(), p);
+  EXPECT_TRUE(std::isinf(result.max_move));
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    moved += distance(at(result, i), shape.points[i]) > 1e-6;
+  EXPECT_LT(moved, shape.size() / 100);
 }
 
 TEST(Denoise, noMoveIsLongerThanTheLimit)

@@ -103,6 +103,21 @@ TEST(ToolFilter, SamplesAreASeededSubsetWithTheirFields)
   EXPECT_EQ(labels("100%", "1").size(), 2000u);
 }
 
+TEST(ToolFilter, ReportsTheRoundsOfGapFilling)
+{
+  TemporaryFolder folder;
+  const std::string input = saveNoisyCube(folder / "in.pcd");
+  const ToolRun run = runTool({"filter", input, "-o", folder / "out.pcd", "--normal-weight-floor", "1", "--gap-filling", "2", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json report = json::parse(run.out);
+  ASSERT_EQ(report["gap_iterations"].size(), 2u);
+  EXPECT_GT(report["gap_iterations"][0]["max_movement"], 0.0);
+  EXPECT_EQ(report["parameters"]["gap-filling"]["value"], 2);
+  EXPECT_EQ(report["parameters"]["two-scales"]["value"], "off");
+  EXPECT_NE(run.err.find("2 rounds of gap filling"), std::string::npos) << run.err;
+  EXPECT_EQ(runTool({"filter", input, "-o", folder / "x.pcd", "--gap-filling", "101"}).exit_code, 2);
+}
+
 TEST(ToolFilter, PaperPresetIsAlgorithmOne)
 {
   TemporaryFolder folder;

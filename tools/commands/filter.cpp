@@ -73,7 +73,7 @@ allEffective(const Options& options, const DenoiseParameters& used, const Denois
         list.push_back({"fine-" + parameter.option.name, estimate.value, estimate.origin, estimate.reason});
   for (EffectiveParameter& parameter : list)
     if (parameter.name == "two-scales" && used.two_scales && result.fine.empty())
-      parameter = {parameter.name, std::string("off"), parameter.origin, "a radius, repulsion, samples or the paper's recursion is asked for"};
+      parameter = {parameter.name, std::string("off"), parameter.origin, "a radius, repulsion, gap filling, samples or the paper's recursion is asked for"};
   list.push_back({"samples", used.gpf.sample_ratio, origin("samples", used.gpf.sample_ratio != 1.0), "share of the points"});
   list.push_back({"seed", used.gpf.seed, origin("seed", false), ""});
   return list;

@@ -24,4 +24,13 @@ struct IterationStats {
  */
 using ProgressCallback = std::function<bool(double fraction)>;
 
+/** \brief For a part of the work that goes from one fraction to another; empty when `progress` is, which must outlive it. */
+inline ProgressCallback
+partOf(const ProgressCallback& progress, double from, double to)
+{
+  if (!progress)
+    return {};
+  return [&progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
+}
+
 } // namespace pcl_gpf

@@ -13,6 +13,7 @@ namespace pcl_gpf {
 /** \brief What GPF did, after filter(). */
 struct GPFStatistics : FilterStatistics {
   std::vector<IterationStats> iterations; ///< variance in the normalised frame, movements in cloud units
+  std::vector<IterationStats> gap_iterations; ///< rounds of gap filling: movements in cloud units, seconds
   std::size_t isolated_points = 0;        ///< points of X whose only data in the last iteration were their own seeds
   double support_radius = 0;              ///< h that was used, cloud units
   bool support_radius_estimated = false;
@@ -109,6 +110,15 @@ public:
   /** \brief Largest number of iterations, 0 .. 10000. Default 5. */
   void setMaximumIterations(unsigned iterations) { parameters_.maximum_iterations = iterations; }
   unsigned getMaximumIterations() const { return parameters_.maximum_iterations; }
+
+  /** \brief Rounds after the iterations in which points piled up on edges spread over the bands that they left empty (paper,
+   * Fig. 21); 0 .. 100. Default 0. */
+  void setGapIterations(unsigned rounds) { parameters_.gap_iterations = rounds; }
+  unsigned getGapIterations() const { return parameters_.gap_iterations; }
+
+  /** \brief How far from an edge they may spread, in h / 2; 1 .. 8. Default 2. */
+  void setGapRadiusFactor(double factor) { parameters_.gap_radius_factor = factor; }
+  double getGapRadiusFactor() const { return parameters_.gap_radius_factor; }
 
   /** \brief Stops when the mean movement of an iteration is below this share of h; 0 = never. Default 1e-4. */
   void setConvergenceThreshold(double share) { parameters_.convergence_threshold = share; }

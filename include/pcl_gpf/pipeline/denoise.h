@@ -31,7 +31,8 @@ struct DenoiseParameters {
   GPFParameters gpf;
 
   /** Filter at two scales and take at each point the coarse result, or the fine one where the coarse one took detail away
-   * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals; otherwise one scale. */
+   * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals (no repulsion, no gap filling);
+   * otherwise one scale. */
   bool two_scales = true;
 
   /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
@@ -76,7 +77,7 @@ struct DenoiseResult {
   std::vector<double> sigma;                 ///< noise that was taken out about the point, cloud units (localNoise())
   std::vector<std::uint8_t> edge;            ///< 1 = within h / 4 of a sharp edge of the filtered cloud (edgePoints())
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
-  double max_move = 0;                       ///< the limit, cloud units; infinity = none
+  double max_move = 0;                       ///< the limit, cloud units; infinity = none, or none for the whole move where gaps were filled
 
   bool repeated = false;                     ///< many outliers were in reach: the points with outlier <= 0.1 were filtered again by themselves;
                                              ///< scale, parameters and iterations are of that second run
@@ -85,6 +86,7 @@ struct DenoiseResult {
   std::vector<ParameterOrigin> parameters;   ///< effective values and where they came from, lengths in cloud units
   std::vector<IterationStats> iterations;    ///< of GPF; variance in the normalised frame, movements in cloud units
   std::vector<IterationStats> fine_iterations; ///< the same at the fine scale; empty where no point needs it
+  std::vector<IterationStats> gap_iterations;  ///< rounds of gap filling (gpfFillGaps()); empty where none is asked for
   std::size_t non_finite_points = 0;
   std::size_t estimated_normals = 0;         ///< normals that the input did not have
   double seconds_normals = 0;
@@ -92,7 +94,7 @@ struct DenoiseResult {
   double seconds_filter = 0;
 };
 
-/** \brief Called with the stage ("normals", "bilateral", "filter", then "fine normals", ... where two scales are filtered, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
+/** \brief Called with the stage ("normals", "bilateral", "filter", "gaps" where they are filled, then "fine normals", ... where two scales are filtered, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
 using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
 
 /** \brief Filters a cloud given in double coordinates, every finite point by default; rows that are not finite are left out.

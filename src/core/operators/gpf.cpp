@@ -87,6 +87,26 @@ gpfRun(GPFState& state, const ProgressCallback& progress)
   return history;
 }
 
+std::vector<IterationStats>
+gpfFillGaps(GPFState& state, const ProgressCallback& progress)
+{
+  const unsigned rounds = state.implementation().parameters.gap_iterations;
+  std::vector<IterationStats> history;
+  const auto report = [&](double fraction) {
+    if (progress && !progress(fraction))
+      throw Cancelled();
+  };
+  while (history.size() < rounds) {
+    report(static_cast<double>(history.size()) / rounds);
+    history.push_back(state.implementation().fillGaps());
+    if (!(history.back().max_movement > 0.0))
+      break;
+  }
+  if (rounds > 0)
+    report(1.0);
+  return history;
+}
+
 double
 gpfHaloWidth(const GPFParameters& parameters)
 {

@@ -45,6 +45,8 @@ validate(const GPFParameters& p)
              "0 .. 1");
   checkRange("sample_ratio", p.sample_ratio, p.sample_ratio > 0.0 && p.sample_ratio <= 1.0, "0 < ratio <= 1");
   checkRange("maximum_iterations", p.maximum_iterations, p.maximum_iterations <= 10000, "0 .. 10000");
+  checkRange("gap_iterations", p.gap_iterations, p.gap_iterations <= 100, "0 .. 100");
+  checkRange("gap_radius_factor", p.gap_radius_factor, p.gap_radius_factor >= 1.0 && p.gap_radius_factor <= 8.0, "1 .. 8");
   checkRange("convergence_threshold", p.convergence_threshold, p.convergence_threshold >= 0.0, ">= 0");
 }
 

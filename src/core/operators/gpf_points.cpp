@@ -69,6 +69,19 @@ GPFPoints<Real>::sortSamples(const GPFInput& input, PointsView positions, const 
   sample_normals_ = gather<Real>(input.normals, {}, seed_points, Real(0), threads_);
 }
 
+template <typename Real>
+SortedVectors<Real>&
+GPFPoints<Real>::ownSampleNormals()
+{
+  if (sample_normals_.size() == 0) {
+    sample_normals_ = SortedVectors<Real>(point_normals_.size());
+    std::copy_n(point_normals_.x.data(), sampleCount(), sample_normals_.x.data());
+    std::copy_n(point_normals_.y.data(), sampleCount(), sample_normals_.y.data());
+    std::copy_n(point_normals_.z.data(), sampleCount(), sample_normals_.z.data());
+  }
+  return sample_normals_;
+}
+
 /** out[rank of s] = value(s), three values a sample. */
 template <typename Real>
 template <typename Value>

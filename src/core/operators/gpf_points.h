@@ -34,6 +34,9 @@ public:
   {
     return sample_normals_.size() > 0 ? sample_normals_ : point_normals_;
   }
+  /** The same to be changed, apart from the normals of the points. */
+  SortedVectors<Real>&
+  ownSampleNormals();
   /** Rank of sorted sample s in the caller's order. */
   std::size_t rankOf(std::size_t s) const { return sample_order_.empty() ? s : sample_order_[s]; }
   /** Sorted point that seeded sorted sample s. */

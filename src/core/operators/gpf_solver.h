@@ -3,6 +3,7 @@
 
 #include "../merged_points.h"
 #include "../moving_neighborhoods.h"
+#include "gap_rounds.h"
 #include "gpf_points.h"
 
 #include <pcl_gpf/core/cluster_tree.h>
@@ -29,6 +30,9 @@ struct GPFState::Implementation {
   normals(MutableVectorsView out) const = 0;
   virtual std::vector<std::uint8_t>
   isolated() const = 0;
+  /** One round of gap filling. */
+  virtual IterationStats
+  fillGaps() = 0;
   /** Frees the lists of neighbours; a further step would make them anew. */
   virtual void
   releaseNeighborhoods() = 0;
@@ -64,6 +68,12 @@ public:
   }
   std::vector<std::uint8_t>
   isolated() const override;
+  IterationStats
+  fillGaps() override
+  {
+    releaseNeighborhoods();
+    return runGapRound<Real>({parameters, merged_, search_, threads_}, cloud_);
+  }
   void
   releaseNeighborhoods() override;
 

@@ -176,15 +176,6 @@ foresee(const RimlsMeshParameters& parameters, PointsView points, const PointInd
                           spacings * spacings * static_cast<double>(points.size));
 }
 
-/** The part [begin, end] of the whole progress. */
-ProgressCallback
-partOf(const ProgressCallback& progress, double begin, double end)
-{
-  if (!progress)
-    return {};
-  return [&progress, begin, end](double fraction) { return progress(begin + (end - begin) * fraction); };
-}
-
 } // namespace
 
 void

@@ -79,6 +79,14 @@ gpfStep(GPFState& state);
 PCL_GPF_CORE_EXPORT std::vector<IterationStats>
 gpfRun(GPFState& state, const ProgressCallback& progress = {});
 
+/** \brief The rounds of gap filling that `parameters.gap_iterations` asks for, after gpfRun(): points that were drawn onto sharp edges
+ * spread over the bands that they left empty (movesIntoGaps()), and return to the mean plane of the data of their own face. The
+ * normals of these points are those of their new places; all others stay to the last bit. \param[in] progress may be empty
+ * \return movements and seconds of every round; the last may be missing when there was nothing left to fill
+ * \throws ExcessiveWork, Cancelled */
+PCL_GPF_CORE_EXPORT std::vector<IterationStats>
+gpfFillGaps(GPFState& state, const ProgressCallback& progress = {});
+
 /** \brief Distance within which other points can influence the result of one step: 2 h (repulsion reaches h, its weight w another h). */
 PCL_GPF_CORE_EXPORT double
 gpfHaloWidth(const GPFParameters& parameters);

@@ -80,6 +80,14 @@ struct GPFParameters {
   /** Stops when the mean movement of an iteration is below this share of h, >= 0; 0 = always run to the maximum. */
   double convergence_threshold = 1e-4;
 
+  /** Rounds of gap filling after the iterations, 0 .. 100 (limitation iii, Fig. 21): points piled up on sharp edges spread over the empty
+   * bands beside them. They move sideways, with their colours. 0 = none; 2 settle. */
+  unsigned gap_iterations = 0;
+
+  /** Length of the strips over which they spread, in h / 2, which is about the width of an empty band; 1 .. 8. Too small: the band is filled from
+   * too few points. Too large: faces narrower than this, curved edges and corners are taken for straight ones. */
+  double gap_radius_factor = 2.0;
+
   /** Where a data ball holds more points than this, means of neighbouring points that face the same way stand for them, at least half
    * as many as this; 0 = never. Bounds the time of dense clouds; sparse parts, whose balls hold fewer, are not changed at all.
    * Without effect where the recursion runs in double or has density weights. */

@@ -77,14 +77,19 @@ GPF<PointT>::runOperator(const OperatorInput& input, MutableVectorsView displace
   data.search = input.search;
 
   GPFState state = gpfInit(parameters, data);
-  statistics_.iterations = gpfRun(state, this->getProgressCallback());
+  const ProgressCallback progress = this->getProgressCallback();
+  const double all = 1.0 * parameters.maximum_iterations + parameters.gap_iterations;
+  const double share = all > 0.0 ? parameters.maximum_iterations / all : 1.0;
+  statistics_.iterations = gpfRun(state, partOf(progress, 0.0, share));
+  statistics_.gap_iterations = gpfFillGaps(state, partOf(progress, share, 1.0));
   state.displacements(displacements);
   state.normals(normals);
 
-  for (IterationStats& iteration : statistics_.iterations) {
-    iteration.mean_movement = input.cloud.frame.lengthToWorld(iteration.mean_movement);
-    iteration.max_movement = input.cloud.frame.lengthToWorld(iteration.max_movement);
-  }
+  for (std::vector<IterationStats>* rounds : {&statistics_.iterations, &statistics_.gap_iterations})
+    for (IterationStats& iteration : *rounds) {
+      iteration.mean_movement = input.cloud.frame.lengthToWorld(iteration.mean_movement);
+      iteration.max_movement = input.cloud.frame.lengthToWorld(iteration.max_movement);
+    }
   if (!statistics_.iterations.empty())
     statistics_.isolated_points = statistics_.iterations.back().isolated_points;
 }
