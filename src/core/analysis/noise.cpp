@@ -68,7 +68,8 @@ settleBelow(const NoiseProbes& probes, double spacing, NoiseProbes::Centers& cen
   if (!(noise > 0.0 && noise < kReach * spacing))
     return;
   NoiseProbes::Centers below = probes.evenCenters();
-  probes.measure(below, kBelow * noise, NoiseProbes::kCoarseStep); // lays them onto their sheets
+  if (noise > spacing)
+    probes.measure(below, kBelow * noise, NoiseProbes::kCoarseStep); // lays them onto their sheets
   const double seen = probes.measure(below, kBelow * noise, NoiseProbes::kCoarseStep).noise;
   if (!(seen > 0.0 && seen < kTwoSheets * kBelow * noise))
     return;
