@@ -2,8 +2,10 @@
 #include "surface_patch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -64,6 +66,30 @@ principalFrame(const std::vector<Offset>& points)
   return frame;
 }
 
+/** Where along the normal most of the points are: `middle`, unless a layer elsewhere holds many more, as where two sheets are near
+ * and the middle is between them. */
+double
+densestHeight(const std::vector<Eigen::Vector3d>& points, double middle, double noise)
+{
+  constexpr int kBins = 32, kLayer = 6; // bins of half a noise, layers of three
+  constexpr double kMuchDenser = 1.15;  // less may be chance
+  const double per_bin = 2.0 / noise;
+  std::array<int, kBins> bins{};
+  for (const Eigen::Vector3d& p : points) {
+    const double place = (p[0] - middle) * per_bin + 0.5 * kBins;
+    if (place >= 0.0 && place < kBins)
+      ++bins[static_cast<std::size_t>(place)];
+  }
+  std::array<int, kBins - kLayer + 1> held{}; // by the layers, from the lowest
+  for (std::size_t layer = 0; layer < held.size(); ++layer)
+    held[layer] = std::accumulate(bins.begin() + layer, bins.begin() + layer + kLayer, 0);
+  const auto densest = std::max_element(held.begin(), held.end());
+  const auto about_middle = held.begin() + held.size() / 2;
+  if (!(*densest > kMuchDenser * *about_middle))
+    return middle;
+  return middle + static_cast<double>(densest - about_middle) / per_bin;
+}
+
 /** Least squares over the points whose height is within `window` of the surface `from`. \return how many those are */
 std::size_t
 fitHeights(const std::vector<Eigen::Vector3d>& points, double window, Terms& surface)
@@ -106,19 +132,24 @@ fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise)
   }
   Terms surface = Terms::Zero();
   surface[0] = frame.axes.col(0).dot(frame.mean) / radius;
+  if (std::isfinite(noise))
+    surface[0] = densestHeight(inside, surface[0], noise / radius);
   for (int round = 0; round < kRounds; ++round)
     if (fitHeights(inside, round == 0 ? kFirstWindow * trim : trim, surface) < kFewestPoints)
       return patch;
-  double sum_sq = 0.0;
+  double sum_sq = 0.0, sum_4 = 0.0;
   for (const Eigen::Vector3d& p : inside) {
     const double height = p[0] - surface.dot(termsAt(p));
     if (!(std::abs(height) <= trim))
       continue;
     sum_sq += height * height;
+    sum_4 += height * height * height * height;
     ++patch.count;
   }
   if (patch.count < kFewestPoints)
     return patch;
+  patch.trimmed = static_cast<double>(inside.size() - patch.count) / static_cast<double>(inside.size());
+  patch.kurtosis = sum_sq > 0.0 ? static_cast<double>(patch.count) * sum_4 / (sum_sq * sum_sq) : 0.0;
   const double tilt = 1.0 / std::sqrt(1.0 + surface[1] * surface[1] + surface[2] * surface[2]);
   patch.deviation = radius * tilt * std::sqrt(sum_sq / static_cast<double>(patch.count - kTerms));
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -13,7 +13,9 @@ using Offset = std::array<double, 3>;
 /** \brief A height field of second degree over the plane of some points. */
 struct SurfacePatch {
   double deviation = 0.0;              ///< standard deviation of the points about it, infinite: no fit; 0: all at one place
-  std::size_t count = 0;               ///< points that the deviation is of
+  double kurtosis = 0.0;               ///< of their heights: 3 on a normal distribution, about 2.5 when it is trimmed, 1.8 on an even one
+  double trimmed = 0.0;                ///< share of the points in the cylinder that are further away than the trim
+  std::size_t count = 0;               ///< points that these are of
   Offset foot{0.0, 0.0, 0.0};          ///< where the normal through the origin meets it
   bool narrow = true;                  ///< the points follow a line: the plane may turn about it
 };

@@ -72,6 +72,7 @@ parseOptions(const std::vector<std::string>& arguments)
 {
   Options o;
   const std::map<std::string, std::function<void()>> flags = {{"--targets", [&] { o.targets = true; }},
+                                                              {"--noise-estimates", [&] { o.noise_estimates = true; }},
                                                               {"--help", [&] { o.help = true; }}};
   const std::map<std::string, std::function<void(const std::string&)>> values = {
       {"--models", [&](const std::string& v) { o.models = expandModels(v); }},
@@ -126,6 +127,8 @@ usage()
                      "               [--reuse FILE: other filters are not run; their records come from this CSV file, "
                      "where it has them]\n"
                      "       quality --targets [--seed N] [--threads N] [--csv FILE]\n"
+                     "       quality --noise-estimates [--models ...] [--noises ...] [--kinds ...] [--sizes ...] "
+                     "[--outliers ...] [--seed N]: estimate / truth\n"
                      "Makes clouds from models, filters them and prints the errors, in 1e-4 of the box diagonal.\n"
                      "models: ") +
          kModelNames + ";\n        groups: analytic, meshes\n" +

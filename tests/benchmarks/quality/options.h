@@ -24,6 +24,7 @@ struct Options {
   std::string reuse;   ///< file whose records of other filters are taken instead of running them; empty = none
   std::string svg_dir; ///< folder; empty = none
   bool targets = false;
+  bool noise_estimates = false;
   bool help = false;
 };
 

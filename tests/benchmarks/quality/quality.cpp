@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts.h"
 #include "experiment.h"
+#include "noise_estimates.h"
 #include "options.h"
 #include "report.h"
 #include "targets.h"
@@ -60,6 +61,13 @@ writeCharts(const std::string& folder, const std::vector<Record>& records)
 int
 run(const Options& options)
 {
+  if (options.noise_estimates) {
+    tabulateNoiseEstimates(options, [](const std::string& line) {
+      std::puts(line.c_str());
+      std::fflush(stdout);
+    });
+    return 0;
+  }
   CsvFile csv(options.csv);
   const auto report = [&](const Record& record) {
     std::puts(tableLine(record).c_str());

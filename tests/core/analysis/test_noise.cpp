@@ -128,6 +128,26 @@ TEST(Noise, ofTwoCloseSheetsIsThatOfOne)
   }
 }
 
+TEST(Noise, ofAWallThinnerThanAPatchIsThatOfOneSide)
+{
+  for (const std::size_t count : {10000u, 33490u})
+    for (const double spacings : {1.5, 2.5}) {
+      const double gap = spacings * std::sqrt(2.0 / static_cast<double>(count));
+      EXPECT_NEAR(noiseOf(turned(sheets(count, gap, gap / 6, 1))) / (gap / 6), 1.0, 0.2) << count << " " << spacings;
+    }
+}
+
+TEST(Noise, thatIsEvenIsNotTakenForANormalOneThatWasTrimmed)
+{
+  const double sigma = 0.01 * std::sqrt(3.0);
+  Shape shape = cube(20000, 0, 1);
+  SplitMix64 random(7);
+  for (Vector3& p : shape.points)
+    for (double& c : p)
+      c += std::sqrt(3.0) * sigma * (2 * random.uniform() - 1);
+  EXPECT_NEAR(noiseOf(turned(shape)) / sigma, 1.0, 0.06);
+}
+
 TEST(Noise, ofACleanSurfaceIsFarBelowItsSpacing)
 {
   for (const std::size_t count : {5000u, 50000u}) {

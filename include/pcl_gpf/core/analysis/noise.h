@@ -10,14 +10,15 @@ namespace pcl_gpf {
 /** \brief Standard deviation of the noise along the surface normal, from the residuals of quadric fits to local patches, each about
  * three times as wide as the noise that it shows; a low quantile over patches, so that edges and outliers do not count.
  *
- * Within a fifth on smooth and on sharp-edged shapes for noise from well below the spacing up to 3 % of the diagonal, at any density and
- * with 5 % of outliers. Too high where parts or gaps are narrower than about five times the noise, or than two spacings; too low where
- * the noise runs along the normal only and walls lower than it are many.
+ * Within a fifth on smooth and on sharp-edged shapes for noise from well below the spacing up to 3 % of the diagonal, normal or even, at
+ * any density and with 5 % of outliers. Too high where parts or gaps are narrower than about four times the noise, where nothing tells
+ * two sheets from one with more noise; too low where the noise runs along the normal only and walls lower than it are many. Of noise that
+ * differs from place to place it is that of the quietest parts.
  *
  * \param[in] points in any one unit; the result is in the same
  * \param[in] spacing of the points (estimateSpacing())
  * \return 0 for fewer than 48 points
- * Cost: one or two thousand fits to a few hundred points, whatever the number of points; a tree over an eighth of them.
+ * Cost: about two thousand fits to a few hundred points, whatever the number of points; a tree over an eighth of them.
  */
 PCL_GPF_CORE_EXPORT double
 estimateNoise(PointsView points, double spacing, unsigned number_of_threads = 0);

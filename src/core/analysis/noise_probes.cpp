@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "noise_probes.h"
+
+#include <pcl_gpf/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_gpf {
+
+namespace {
+
+constexpr std::size_t kMostProbes = 320;
+
+/** Radius of a neighbourhood in units of the noise: no wider than a patch must be to have a normal, since edges and second sheets
+ * come in with every bit; wider, where points are sparse, for kWantedPoints of them, but not beyond kWidestRadius. */
+constexpr double kRadius = 2.8;
+constexpr double kWidestRadius = 4.0;
+constexpr std::size_t kWantedPoints = 200;
+constexpr std::size_t kMostPoints = 300;
+/** Most of the nearest points that a patch is of, along scan lines. */
+constexpr std::size_t kMostNearest = 384;
+
+/** Patches across edges only ever show too much noise, so a low quantile is taken, ... */
+constexpr double kQuantile = 0.1;
+/** ... and the luck of the lowest undone: residuals of n degrees of freedom spread by 1 / sqrt(2 n); this many deviations below. */
+constexpr double kLuck = 0.9;
+/** Deviation of a normal distribution cut off at kPatchTrim times its own, against the whole. */
+constexpr double kTrimmedDeviation = 0.924;
+double
+lengthSq(const Offset& p)
+{
+  return p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+}
+
+} // namespace
+
+/** Storage of one task. */
+struct NoiseProbes::Scratch {
+  std::vector<Run> runs;
+  std::vector<Offset> points;
+  std::vector<float> distances_sq;
+  std::vector<std::uint32_t> indices;
+  std::size_t level = 0; ///< thinned cloud that served the last probe
+};
+
+NoiseProbes::Centers
+NoiseProbes::evenCenters() const
+{
+  const PointsView view = points_.sorted();
+  Centers centers(std::min(kMostProbes, points_.size()));
+  for (std::size_t k = 0; k < centers.size(); ++k) {
+    const std::size_t i = k * points_.size() / centers.size(); // even steps along the curve: even over the surface
+    centers[k] = {view.x[i], view.y[i], view.z[i]};
+  }
+  return centers;
+}
+
+NoiseReading
+NoiseProbes::measure(Centers& centers, double guess, std::size_t step) const
+{
+  std::vector<NoiseReading> patches((centers.size() + step - 1) / step);
+  parallelBlocks(patches.size(), 8, threads_, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
+    for (std::size_t k = begin; k < end; ++k)
+      patches[k] = measureAt(centers[k * step], guess, scratch);
+  });
+  std::sort(patches.begin(), patches.end(), [](const NoiseReading& a, const NoiseReading& b) {
+    return a.noise < b.noise || (a.noise == b.noise && a.kurtosis < b.kurtosis);
+  });
+  const auto place = static_cast<std::size_t>(static_cast<double>(patches.size()) * kQuantile);
+  NoiseReading reading{std::isfinite(patches[place].noise) ? patches[place].noise : 0.0, 0.0, 0.0};
+  const std::size_t lower_half = std::max<std::size_t>(1, patches.size() / 2);
+  for (std::size_t k = 0; k < lower_half; ++k) {
+    reading.kurtosis += patches[k].kurtosis / static_cast<double>(lower_half);
+    reading.trimmed += patches[k].trimmed / static_cast<double>(lower_half);
+  }
+  return reading;
+}
+
+NoiseReading
+NoiseProbes::measureAt(Center& center, double guess, Scratch& scratch) const
+{
+  SurfacePatch patch;
+  if (!std::isfinite(guess) || !fitBall(center, guess, scratch, patch))
+    patch = fitNearest(center, guess, scratch);
+  if (patch.count == 0 || !std::isfinite(patch.deviation))
+    return {patch.deviation, 0.0, 0.0};
+  if (std::isfinite(guess))
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      center[axis] += static_cast<float>(patch.foot[axis]);
+  const double luck = 1.0 - kLuck / std::sqrt(2.0 * static_cast<double>(patch.count - 6));
+  return {patch.deviation / luck / (std::isfinite(guess) ? kTrimmedDeviation : 1.0), patch.kurtosis, patch.trimmed};
+}
+
+bool
+NoiseProbes::fitBall(const Center& center, double guess, Scratch& scratch, SurfacePatch& patch) const
+{
+  std::vector<Offset>& found = scratch.points;
+  double radius = kRadius * guess;
+  std::size_t level = std::min(scratch.level + 1, thinned_.size() - 1);
+  thinned_.collect(level, center, radius, scratch.runs, found);
+  while (found.size() < kWantedPoints && level > 0)
+    thinned_.collect(--level, center, radius, scratch.runs, found);
+  scratch.level = level;
+  if (found.size() < kWantedPoints)
+    radius = widen(center, guess, scratch);
+  if (found.size() < kNearest)
+    return false;
+  const std::size_t stride = (found.size() + kMostPoints - 1) / kMostPoints;
+  for (std::size_t i = 0; i * stride < found.size(); ++i)
+    found[i] = found[i * stride];
+  found.resize((found.size() + stride - 1) / stride);
+  patch = fitSurfacePatch(found, radius, guess);
+  return !patch.narrow;
+}
+
+double
+NoiseProbes::widen(const Center& center, double guess, Scratch& scratch) const
+{
+  std::vector<Offset>& found = scratch.points;
+  thinned_.collect(0, center, kWidestRadius * guess, scratch.runs, found);
+  if (found.size() <= kWantedPoints)
+    return kWidestRadius * guess;
+  const auto last = found.begin() + static_cast<std::ptrdiff_t>(kWantedPoints);
+  std::nth_element(found.begin(), last, found.end(), [](const Offset& a, const Offset& b) {
+    return lengthSq(a) < lengthSq(b);
+  });
+  found.resize(kWantedPoints + 1);
+  return std::sqrt(lengthSq(found.back()));
+}
+
+SurfacePatch
+NoiseProbes::fitNearest(const Center& center, double guess, Scratch& scratch) const
+{
+  const PointsView view = points_.sorted();
+  SurfacePatch patch;
+  for (std::size_t count = kNearest; count <= kMostNearest && patch.narrow; count *= 2) {
+    points_.tree().nearest(view, center, count, scratch.distances_sq, &scratch.indices);
+    scratch.points.clear();
+    for (const std::uint32_t i : scratch.indices)
+      scratch.points.push_back({view.x[i] - center[0], view.y[i] - center[1], view.z[i] - center[2]});
+    patch = fitSurfacePatch(scratch.points, std::sqrt(scratch.distances_sq.back()), guess);
+  }
+  return patch;
+}
+
+} // namespace pcl_gpf
