@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/core/export.h>
 #include <pcl_gpf/core/iteration.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/soa_buffer.h>
 #include <pcl_gpf/core/views.h>
 
@@ -87,6 +88,13 @@ struct EdgeAwareUpsamplingResult {
 PCL_GPF_CORE_EXPORT EdgeAwareUpsamplingResult
 upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters,
                   PointsView points,
+                  NormalsView normals,
+                  const ProgressCallback& progress = {});
+
+/** \brief The same for points that have an index already; points and normals are in sorted order, and so are the numbers of the result. */
+PCL_GPF_CORE_EXPORT EdgeAwareUpsamplingResult
+upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters,
+                  const PointIndex& points,
                   NormalsView normals,
                   const ProgressCallback& progress = {});
 
