@@ -176,6 +176,18 @@ struct WidestGaps {
   Gap* gaps = nullptr;                    ///< of first, first + 1 ...
 };
 
+/** For each of the gaps [first, last) those among the runs that are better, of greater priority or equal priority and before it, and
+ * whose base lies within its clearance. Arrays of gaps have room for a vector behind them. */
+struct BetterGaps {
+  Vectors<float> bases;
+  const float* clearance_sq = nullptr;
+  const float* priority = nullptr;
+  const Run* runs = nullptr;
+  std::size_t run_count = 0, first = 0, last = 0;
+  std::uint32_t* better = nullptr;  ///< with room for all pairs and a vector more
+  std::uint32_t* row_end = nullptr; ///< of each gap, counted from `better`
+};
+
 /** Candidates of the blocks, as in Neighborhoods. */
 struct Candidates {
   std::size_t query_count = 0;
@@ -210,6 +222,7 @@ struct KernelSet {
   void (*field_sums)(const Candidates&, const FieldSums&, std::size_t begin, std::size_t end);
   void (*side_sums)(const Candidates&, const SideSums&, std::size_t begin, std::size_t end);
   void (*widest_gaps)(const WidestGaps&);
+  void (*better_gaps)(const BetterGaps&);
   void (*near_children)(const NearChildren&);
 };
 

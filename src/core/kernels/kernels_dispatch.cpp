@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include "better_gaps-inl.h"
 #include "bilateral_normals-inl.h"
 #include "field_sums-inl.h"
 #include "gaussian_sums-inl.h"
@@ -163,7 +164,7 @@ sideSums(const Candidates& candidates, const SideSums& a, std::size_t begin, std
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
                               repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
                               moments,             fieldSums,            sideSums,            widestGaps,
-                              nearChildren};
+                              betterGaps,          nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

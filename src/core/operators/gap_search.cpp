@@ -48,8 +48,8 @@ GapSearch::GapSearch(double edge_sensitivity, bool sign_invariant)
 }
 
 void
-GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end, std::uint32_t first_new, float reach,
-                  float farthest, Scratch& scratch, Gap* gaps) const
+GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end, std::uint32_t first_new, float above_sq,
+                  float reach, float farthest, Scratch& scratch, Gap* gaps) const
 {
   const auto position = [&](std::size_t k) { return cloud.position(k); };
   std::vector<float>& radius_sq = scratch.radius_sq_;
@@ -76,6 +76,8 @@ GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end,
   forPatches(begin, end, kWidestDescent * reach, position, [&](std::size_t wide_first, std::size_t wide_last, const FloatBox& wide_box) {
     cloud.tree().collectGroups(wide_box, std::sqrt(largest(wide_first, wide_last)), scratch.groups_);
     forPatches(wide_first, wide_last, kWidestBox * reach, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+      if (std::none_of(gaps + (first - begin), gaps + (last - begin), [above_sq](const Gap& gap) { return gap.clearance_sq > above_sq; }))
+        return;
       a.largest_radius_sq = largest(first, last);
       scratch.runs_.clear();
       cloud.tree().collectRuns(scratch.groups_, box, std::sqrt(a.largest_radius_sq), scratch.runs_);

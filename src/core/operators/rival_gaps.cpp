@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rival_gaps.h"
 
+#include "../kernels/kernels.h"
 #include "patches.h"
 
 #include <pcl_gpf/core/cluster_tree.h>
@@ -22,7 +23,7 @@ constexpr float kWidestBox = 3.0f;
 /** The rivals' bases with the tree over them, in the order given. */
 struct Rivals {
   SoaBuffer bases;
-  std::vector<float> clearance_sq, priority;
+  AlignedArray<float> clearance_sq, priority;
   ClusterTree tree;
 
   Rivals(const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& places, std::size_t threads)
@@ -39,24 +40,6 @@ struct Rivals {
     tree.fit(view(), threads);
   }
   PointsView view() const { return bases.view(); }
-
-  /** Appends the better gaps within the clearance of gap k. */
-  void
-  appendBetter(std::size_t k, const std::vector<Run>& candidates, std::vector<std::uint32_t>& to) const
-  {
-    const PointsView b = view();
-    for (const Run run : candidates) {
-      std::size_t count = to.size();
-      to.resize(count + (run.end - run.begin) + 1);
-      for (std::uint32_t j = run.begin; j < run.end; ++j) {
-        const float dx = b.x[j] - b.x[k], dy = b.y[j] - b.y[k], dz = b.z[j] - b.z[k];
-        to[count] = j;
-        count += (dx * dx + dy * dy + dz * dz < clearance_sq[k]) &
-                 ((priority[j] > priority[k]) | ((priority[j] == priority[k]) & (j < k)));
-      }
-      to.resize(count);
-    }
-  }
 };
 
 /** Rows of better gaps, one task's after another's. */
@@ -77,12 +60,27 @@ struct BetterLists {
       forPatches(begin, end, kWidestBox * widest, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
         candidates.clear();
         rivals.tree.collectRuns(box, std::sqrt(*std::max_element(clearances + first, clearances + last)), candidates);
-        for (std::size_t k = first; k < last; ++k) {
-          rivals.appendBetter(k, candidates, better);
-          row_end[k] = static_cast<std::uint32_t>(better.size());
-        }
+        appendRows(rivals, candidates, first, last, better);
       });
     });
+  }
+
+private:
+  void
+  appendRows(const Rivals& rivals, const std::vector<Run>& candidates, std::size_t first, std::size_t last,
+             std::vector<std::uint32_t>& better)
+  {
+    std::size_t pairs = 0;
+    for (const Run run : candidates)
+      pairs += (run.end - run.begin) * (last - first);
+    const std::size_t before = better.size();
+    better.resize(before + pairs + kQueryBlock);
+    kernels::active().better_gaps({{rivals.bases.x.data(), rivals.bases.y.data(), rivals.bases.z.data()}, rivals.clearance_sq.data(),
+                                   rivals.priority.data(), candidates.data(), candidates.size(), first, last, better.data() + before,
+                                   row_end.data() + first});
+    for (std::size_t k = first; k < last; ++k)
+      row_end[k] += static_cast<std::uint32_t>(before);
+    better.resize(row_end[last - 1]);
   }
 };
 

@@ -20,7 +20,7 @@ constexpr float kLeastClearance = 1e-6f;
 /** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
 constexpr float kReachInClearances = 3.6f;
 /** Share of the gaps, those of least priority, that take no part in a round: so the widest are filled first. */
-constexpr double kShareLeft = 0.5;
+constexpr double kShareLeft = 0.3;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 template <class Arrays>
@@ -49,15 +49,38 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex&
 }
 
 void
+UpsamplingRounds::searchGaps(std::size_t begin, std::size_t end, float above_sq)
+{
+  GapSearch::Scratch scratch;
+  search_.widest(cloud_, begin, end, static_cast<std::uint32_t>(searched_), above_sq, reach_, static_cast<float>(plan_.radius), scratch,
+                 cloud_.gaps().data() + begin);
+}
+
+void
 UpsamplingRounds::searchGaps()
 {
-  const auto first_new = static_cast<std::uint32_t>(searched_);
-  Gap* gaps = cloud_.gaps().data();
-  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
-    GapSearch::Scratch scratch;
-    search_.widest(cloud_, begin, end, first_new, reach_, static_cast<float>(plan_.radius), scratch, gaps + begin);
-  });
+  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads,
+                 [this](std::size_t begin, std::size_t end) { searchGaps(begin, end, -1.0f); });
   searched_ = cloud_.size();
+}
+
+float
+UpsamplingRounds::widestClearance()
+{
+  std::vector<Gap>& gaps = cloud_.gaps();
+  const auto narrower = [](const Gap& a, const Gap& b) { return a.clearance_sq < b.clearance_sq; };
+  // What the gaps were is what they are at most: first the most promising of each task, then all that may be wider than those.
+  std::vector<float> found((gaps.size() + kPointsPerTask - 1) / kPointsPerTask);
+  parallelBlocks(gaps.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+    const auto widest = std::max_element(gaps.begin() + static_cast<std::ptrdiff_t>(begin), gaps.begin() + static_cast<std::ptrdiff_t>(end), narrower);
+    const auto k = static_cast<std::size_t>(widest - gaps.begin());
+    searchGaps(k, k + 1, -1.0f);
+    found[begin / kPointsPerTask] = widest->clearance_sq;
+  });
+  const float least = *std::max_element(found.begin(), found.end());
+  parallelBlocks(gaps.size(), kPointsPerTask, plan_.threads,
+                 [&](std::size_t begin, std::size_t end) { searchGaps(begin, end, least); });
+  return std::sqrt(std::max_element(gaps.begin(), gaps.end(), narrower)->clearance_sq);
 }
 
 bool
@@ -141,11 +164,9 @@ UpsamplingRounds::keepBest(std::vector<std::uint32_t>& chosen, std::size_t count
 bool
 UpsamplingRounds::step()
 {
-  if (cloud_.size() >= plan_.target && searched_ > 0)
-    return false;
-  searchGaps(); // even where nothing is to be inserted: result() tells the widest gap
   if (cloud_.size() >= plan_.target)
     return false;
+  searchGaps();
   const float least = leastPriority();
   std::vector<std::uint32_t> chosen = chooseBases(least);
   if (chosen.empty())
@@ -172,7 +193,7 @@ UpsamplingRounds::fractionDone() const
 }
 
 EdgeAwareUpsamplingResult
-UpsamplingRounds::result() const
+UpsamplingRounds::result()
 {
   EdgeAwareUpsamplingResult result;
   const std::size_t count = cloud_.size() - input_size_;
@@ -187,10 +208,7 @@ UpsamplingRounds::result() const
   result.first_base = first_base_;
   result.second_base = second_base_;
   result.radius = plan_.radius;
-  float widest = 0.0f;
-  for (const Gap& gap : cloud_.gaps())
-    widest = std::max(widest, gap.clearance_sq);
-  result.widest_gap = std::sqrt(static_cast<double>(widest));
+  result.widest_gap = static_cast<double>(widestClearance());
   result.rounds = rounds_;
   result.target_reached = plan_.least_clearance > 0.0 || cloud_.size() >= plan_.target;
   return result;

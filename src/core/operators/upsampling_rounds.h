@@ -42,11 +42,16 @@ public:
   double
   fractionDone() const;
   EdgeAwareUpsamplingResult
-  result() const;
+  result();
 
 private:
   void
   searchGaps();
+  void
+  searchGaps(std::size_t begin, std::size_t end, float above_sq);
+  /** Of the gaps that are left. */
+  float
+  widestClearance();
   bool
   counts(const Gap& gap) const;
   float
