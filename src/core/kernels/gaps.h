@@ -20,6 +20,9 @@ struct Gap {
   std::uint32_t partner = 0;                   ///< number of t
 };
 
+/** The widest gaps of a point that are kept: this many, one after another in arrays of gaps. */
+constexpr std::size_t kGapsOfPoint = 2;
+
 namespace kernels {
 
 /** Steps of the table of (2 - c)^rho, over c from 1 down to -1. */
@@ -63,7 +66,7 @@ struct GapScratch {
   PointRows candidates; ///< of the patch
   PointRows neighbors;  ///< of one point, relative to it
   PointRows bases;      ///< half-way to the neighbours, with their normals
-  AlignedArray<float> clearance_sq, cosine; ///< of the bases
+  AlignedArray<float> clearance_sq, cosine, priority; ///< of the bases
 
   /** \param[in] candidates of a patch; a vector's width is added */
   void
@@ -77,6 +80,7 @@ struct GapScratch {
       *points = PointRows(size);
     clearance_sq.assign(size);
     cosine.assign(size);
+    priority.assign(size);
   }
 };
 

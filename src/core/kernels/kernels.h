@@ -158,7 +158,7 @@ struct SideSums {
   float* nearest[2] = {};     ///< the number of the datum of largest weight; 0 when there is none
 };
 
-/** The gap of greatest priority beside each of the points [first, last), which lie near each other. Runs hold their candidates. */
+/** The gaps of greatest priority beside each of the points [first, last), which lie near each other. Runs hold their candidates. */
 struct WidestGaps {
   Vectors<float> points, normals;
   const std::uint32_t* numbers = nullptr; ///< of the points; each pair is looked at by one end, which the numbers decide
@@ -173,7 +173,7 @@ struct WidestGaps {
   const float* edge_factors = nullptr;    ///< as edgeFactor() takes them
   float largest_factor = 1;               ///< 1: all factors are 1
   GapScratch* scratch = nullptr;          ///< with room for all candidates
-  Gap* gaps = nullptr;                    ///< of first, first + 1 ...
+  Gap* gaps = nullptr;                    ///< kGapsOfPoint of first, of first + 1 ...
 };
 
 /** For each of the gaps [first, last) those among the runs that are better, of greater priority or equal priority and before it, and

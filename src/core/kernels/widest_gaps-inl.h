@@ -60,7 +60,7 @@ private:
     for (std::size_t r = 0; r < a_.run_count; ++r)
       for (std::size_t j = a_.runs[r].begin; j < a_.runs[r].end; j += lanes_) {
         const Lanes3<D> p = loadQueries(d, a_.points, j);
-        const auto gap_x = gap(p.x, 0), gap_y = gap(p.y, 1), gap_z = gap(p.z, 2);
+        const auto gap_x = outside(p.x, 0), gap_y = outside(p.y, 1), gap_z = outside(p.z, 2);
         const auto gap_sq = mulAdd(gap_z, gap_z, mulAdd(gap_y, gap_y, hn::Mul(gap_x, gap_x)));
         const auto near = hn::And(hn::Le(gap_sq, reach_sq), hn::FirstN(d, a_.runs[r].end - j));
         put(d, to.x, count, p.x, near);
@@ -77,11 +77,11 @@ private:
   }
 
   HWY_INLINE hn::Vec<D>
-  gap(hn::Vec<D> p, std::size_t axis) const
+  outside(hn::Vec<D> p, std::size_t axis) const
   {
     const D d;
-    const auto outside = hn::Max(hn::Sub(hn::Set(d, a_.box.min[axis]), p), hn::Sub(p, hn::Set(d, a_.box.max[axis])));
-    return hn::Max(outside, hn::Zero(d));
+    const auto beyond = hn::Max(hn::Sub(hn::Set(d, a_.box.min[axis]), p), hn::Sub(p, hn::Set(d, a_.box.max[axis])));
+    return hn::Max(beyond, hn::Zero(d));
   }
 
   /** Copies the candidates within the radius of point k, relative to it, and k itself behind them. */
@@ -174,23 +174,42 @@ private:
     }
   }
 
+  /** The best gap, and the best of those outside of whose clearance it lies. */
   HWY_INLINE void
-  choose(std::size_t k, std::size_t bases) const
+  choose(std::size_t k, std::size_t bases)
+  {
+    Gap* gaps = a_.gaps + kGapsOfPoint * (k - a_.first);
+    std::size_t first = bases, second = bases;
+    float* priority = a_.scratch->priority.data();
+    const GapScratch& s = *a_.scratch;
+    float most = 0.0f;
+    for (std::size_t t = 0; t < bases; ++t) {
+      priority[t] = a_.largest_factor > 1.0f ? s.clearance_sq[t] * edgeFactor(a_.edge_factors, s.cosine[t]) : s.clearance_sq[t];
+      if (priority[t] > most) {
+        most = priority[t];
+        first = t;
+      }
+    }
+    most = 0.0f;
+    for (std::size_t t = 0; t < bases && first < bases; ++t) {
+      const float dx = s.bases.x[t] - s.bases.x[first], dy = s.bases.y[t] - s.bases.y[first], dz = s.bases.z[t] - s.bases.z[first];
+      if (priority[t] > most && dx * dx + dy * dy + dz * dz >= s.clearance_sq[t]) {
+        most = priority[t];
+        second = t;
+      }
+    }
+    gaps[0] = gap(k, first, bases);
+    gaps[1] = gap(k, second, bases);
+  }
+
+  HWY_INLINE Gap
+  gap(std::size_t k, std::size_t t, std::size_t bases) const
   {
     const GapScratch& s = *a_.scratch;
-    Gap best;
-    for (std::size_t t = 0; t < bases; ++t) {
-      const float clearance_sq = s.clearance_sq[t];
-      if (!(clearance_sq * a_.largest_factor > best.priority))
-        continue;
-      const float priority = a_.largest_factor > 1.0f ? clearance_sq * edgeFactor(a_.edge_factors, s.cosine[t]) : clearance_sq;
-      if (priority > best.priority)
-        best = {{s.bases.x[t], s.bases.y[t], s.bases.z[t]}, clearance_sq, priority, s.bases.number[t]};
-    }
-    best.base[0] += a_.points.x[k];
-    best.base[1] += a_.points.y[k];
-    best.base[2] += a_.points.z[k];
-    a_.gaps[k - a_.first] = best;
+    if (t == bases)
+      return Gap();
+    return {{a_.points.x[k] + s.bases.x[t], a_.points.y[k] + s.bases.y[t], a_.points.z[k] + s.bases.z[t]},
+            s.clearance_sq[t], s.priority[t], s.bases.number[t]};
   }
 
   static constexpr float kBeyond = 1e18f; ///< farther than any radius, its square still finite

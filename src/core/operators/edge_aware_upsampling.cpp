@@ -40,11 +40,10 @@ unitVectors(NormalsView normals, const std::vector<std::uint32_t>& order)
 
 /** What the rounds need, all of it known: lengths are set and checked against the data. */
 UpsamplingPlan
-makePlan(const EdgeAwareUpsamplingParameters& p, const PointIndex& points)
+makePlan(const EdgeAwareUpsamplingParameters& p, const PointIndex& points, double spacing)
 {
   UpsamplingPlan plan;
   plan.target = targetCount(p, points.size());
-  const double spacing = estimateSpacing(points, p.number_of_threads);
   plan.radius = boundedRadius(p.radius > 0.0 ? p.radius : kRadiusInSpacings * spacing);
   if (p.spacing > 0.0) {
     const double count = static_cast<double>(points.size()) * (spacing / p.spacing) * (spacing / p.spacing);
@@ -71,10 +70,10 @@ requireSurface(PointsView points)
 }
 
 EdgeAwareUpsamplingResult
-upsampleSorted(const EdgeAwareUpsamplingParameters& parameters, const PointIndex& points, const SoaBuffer& unit_normals,
-               const ProgressCallback& progress)
+upsampleSorted(const EdgeAwareUpsamplingParameters& parameters, const PointIndex& points, double spacing,
+               const SoaBuffer& unit_normals, const ProgressCallback& progress)
 {
-  UpsamplingRounds rounds(makePlan(parameters, points), points, unit_normals.view());
+  UpsamplingRounds rounds(makePlan(parameters, points, spacing), points, unit_normals.view());
   double reported = 0.0;
   do {
     reported = std::max(reported, rounds.fractionDone()); // a later estimate may be lower
@@ -131,7 +130,8 @@ upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters, PointsView po
   validate(parameters);
   requireSurface(points);
   const PointIndex index(points, parameters.number_of_threads);
-  EdgeAwareUpsamplingResult result = upsampleSorted(parameters, index, unitVectors(normals, index.order()), progress);
+  EdgeAwareUpsamplingResult result = upsampleSorted(parameters, index, estimateSpacing(index, parameters.number_of_threads),
+                                                    unitVectors(normals, index.order()), progress);
   const std::vector<std::uint32_t>& order = index.order();
   for (std::vector<std::uint32_t>* numbers : {&result.parents, &result.first_base, &result.second_base})
     for (std::uint32_t& number : *numbers)
@@ -142,12 +142,12 @@ upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters, PointsView po
 
 EdgeAwareUpsamplingResult
 upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters, const PointIndex& points, NormalsView normals,
-                  const ProgressCallback& progress)
+                  double spacing, const ProgressCallback& progress)
 {
   const auto start = std::chrono::steady_clock::now();
   validate(parameters);
   requireSurface(points.sorted());
-  EdgeAwareUpsamplingResult result = upsampleSorted(parameters, points, unitVectors(normals, {}), progress);
+  EdgeAwareUpsamplingResult result = upsampleSorted(parameters, points, spacing, unitVectors(normals, {}), progress);
   result.seconds = secondsSince(start);
   return result;
 }

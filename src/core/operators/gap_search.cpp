@@ -55,7 +55,7 @@ GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end,
   std::vector<float>& radius_sq = scratch.radius_sq_;
   radius_sq.resize(end - begin);
   for (std::size_t k = begin; k < end; ++k) {
-    const float free = std::sqrt(gaps[k - begin].clearance_sq);
+    const float free = std::sqrt(gaps[kGapsOfPoint * (k - begin)].clearance_sq);
     const float radius = std::min(farthest, std::clamp(reach, kLeastClearances * free, kMostClearances * free));
     radius_sq[k - begin] = radius * radius;
   }
@@ -76,7 +76,8 @@ GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end,
   forPatches(begin, end, kWidestDescent * reach, position, [&](std::size_t wide_first, std::size_t wide_last, const FloatBox& wide_box) {
     cloud.tree().collectGroups(wide_box, std::sqrt(largest(wide_first, wide_last)), scratch.groups_);
     forPatches(wide_first, wide_last, kWidestBox * reach, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
-      if (std::none_of(gaps + (first - begin), gaps + (last - begin), [above_sq](const Gap& gap) { return gap.clearance_sq > above_sq; }))
+      Gap* own = gaps + kGapsOfPoint * (first - begin);
+      if (std::none_of(own, own + kGapsOfPoint * (last - first), [above_sq](const Gap& gap) { return gap.clearance_sq > above_sq; }))
         return;
       a.largest_radius_sq = largest(first, last);
       scratch.runs_.clear();
@@ -93,7 +94,7 @@ GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end,
       a.last = last;
       a.box = box;
       a.radius_sq = radius_sq.data() + (first - begin);
-      a.gaps = gaps + (first - begin);
+      a.gaps = own;
       kernels::active().widest_gaps(a);
     });
   });

@@ -27,7 +27,7 @@ public:
 
   GapSearch(double edge_sensitivity, bool sign_invariant);
 
-  /** The gap of greatest priority between each of the points [begin, end) of the cloud and its neighbours, into gaps[k - begin].
+  /** The gaps of greatest priority between each of the points [begin, end) of the cloud and its neighbours, into `gaps`, kGapsOfPoint each.
    *
    * Neighbours are sought within `reach`, or farther where the gap known before is wide, at most within `farthest`. Where no point
    * near has a number of at least `first_new`, and where no gap known before has a clearance above `above_sq`, gaps stay as they are. */

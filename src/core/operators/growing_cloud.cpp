@@ -16,7 +16,7 @@ constexpr std::size_t kPointsPerTask = 16384;
 } // namespace
 
 GrowingCloud::GrowingCloud(const PointIndex& points, NormalsView normals, std::size_t threads)
-: size_(points.size()), threads_(threads), rows_(size_), gaps_(size_), places_(size_)
+: size_(points.size()), threads_(threads), rows_(size_), gaps_(kGapsOfPoint * size_), places_(size_)
 {
   const PointsView p = points.sorted();
   const auto copy = [this](const float* from, AlignedArray<float>& to) { std::copy(from, from + size_, to.begin()); };
@@ -31,34 +31,50 @@ GrowingCloud::GrowingCloud(const PointIndex& points, NormalsView normals, std::s
   tree_.fit(p, threads);
 }
 
-void
-GrowingCloud::insert(const std::vector<std::uint32_t>& beside, kernels::Vectors<float> positions, kernels::Vectors<float> normals,
-                     const std::vector<Gap>& gaps)
+/** A copy of an array with the values of new points at their places. \param[in] each elements a point */
+template <class Array, class ValueOfNew>
+Array
+GrowingCloud::spread(const Array& from, std::size_t each, const std::vector<std::uint32_t>& filled, const ValueOfNew& value_of_new) const
 {
-  const std::size_t count = size_ + beside.size();
-  Rows to(count);
-  std::vector<Gap> to_gaps(count);
-  places_.resize(count);
+  Array to(each * (size_ + filled.size()));
   parallelBlocks(size_, kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
-    auto next = static_cast<std::size_t>(std::lower_bound(beside.begin(), beside.end(), begin) - beside.begin());
+    auto next = static_cast<std::size_t>(std::lower_bound(filled.begin(), filled.end(), kGapsOfPoint * begin) - filled.begin());
     for (std::size_t k = begin; k < end; ++k) {
-      std::size_t place = k + next;
-      to.set(place, {rows_.x[k], rows_.y[k], rows_.z[k]}, {rows_.nx[k], rows_.ny[k], rows_.nz[k]}, rows_.number[k]);
-      to_gaps[place] = gaps_[k];
-      places_[rows_.number[k]] = static_cast<std::uint32_t>(place);
-      if (next == beside.size() || beside[next] != k)
-        continue;
-      ++place;
-      const auto number = static_cast<std::uint32_t>(size_ + next);
-      to.set(place, {positions.x[next], positions.y[next], positions.z[next]}, {normals.x[next], normals.y[next], normals.z[next]}, number);
-      to_gaps[place] = gaps[next];
-      places_[number] = static_cast<std::uint32_t>(place);
-      ++next;
+      for (std::size_t e = 0; e < each; ++e)
+        to[each * (k + next) + e] = from[each * k + e];
+      for (; next < filled.size() && filled[next] / kGapsOfPoint == k; ++next)
+        for (std::size_t e = 0; e < each; ++e)
+          to[each * (k + 1 + next) + e] = value_of_new(next, e);
     }
   });
-  rows_ = std::move(to);
-  gaps_ = std::move(to_gaps);
-  size_ = count;
+  return to;
+}
+
+void
+GrowingCloud::insert(const std::vector<std::uint32_t>& filled, kernels::Vectors<float> positions, kernels::Vectors<float> normals)
+{
+  // One array after another, so that only one is there twice.
+  const auto add = [&](AlignedArray<float>& array, const float* values) {
+    array = spread(array, 1, filled, [values](std::size_t c, std::size_t) { return values[c]; });
+  };
+  add(rows_.x, positions.x);
+  add(rows_.y, positions.y);
+  add(rows_.z, positions.z);
+  add(rows_.nx, normals.x);
+  add(rows_.ny, normals.y);
+  add(rows_.nz, normals.z);
+  rows_.number = spread(rows_.number, 1, filled, [this](std::size_t c, std::size_t) { return static_cast<std::uint32_t>(size_ + c); });
+  gaps_ = spread(gaps_, kGapsOfPoint, filled, [&](std::size_t c, std::size_t) {
+    Gap gap;
+    gap.clearance_sq = gaps_[filled[c]].clearance_sq;
+    return gap;
+  });
+  size_ += filled.size();
+  places_.resize(size_);
+  parallelBlocks(size_, kPointsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      places_[rows_.number[k]] = static_cast<std::uint32_t>(k);
+  });
   tree_.fit({rows_.x.data(), rows_.y.data(), rows_.z.data(), size_}, threads_);
 }
 

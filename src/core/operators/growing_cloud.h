@@ -33,20 +33,22 @@ public:
   std::size_t placeOf(std::uint32_t number) const { return places_[number]; }
   const ClusterTree& tree() const { return tree_; }
 
-  /** The gap beside each point, by its place. */
+  /** The gaps beside each point, kGapsOfPoint at a place. */
   std::vector<Gap>& gaps() { return gaps_; }
   const std::vector<Gap>& gaps() const { return gaps_; }
 
-  /** Adds one point behind each of the places `beside`, which ascend; numbers go on in their order. */
+  /** Fills gaps: adds a point behind the place of each, whose gaps are as free as that was; numbers go on in their order.
+   * \param[in] filled ascending indices of gaps */
   void
-  insert(const std::vector<std::uint32_t>& beside, kernels::Vectors<float> positions, kernels::Vectors<float> normals,
-         const std::vector<Gap>& gaps);
+  insert(const std::vector<std::uint32_t>& filled, kernels::Vectors<float> positions, kernels::Vectors<float> normals);
 
 private:
-  using Rows = kernels::PointRows;
+  template <class Array, class ValueOfNew>
+  Array
+  spread(const Array& from, std::size_t each, const std::vector<std::uint32_t>& filled, const ValueOfNew& value_of_new) const;
 
   std::size_t size_, threads_;
-  Rows rows_;
+  kernels::PointRows rows_;
   std::vector<Gap> gaps_;
   std::vector<std::uint32_t> places_; ///< of each number
   ClusterTree tree_;

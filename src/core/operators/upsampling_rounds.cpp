@@ -19,8 +19,9 @@ constexpr std::size_t kCopiesPerTask = 65536;
 constexpr float kLeastClearance = 1e-6f;
 /** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
 constexpr float kReachInClearances = 3.6f;
-/** Share of the gaps, those of least priority, that take no part in a round: so the widest are filled first. */
-constexpr double kShareLeft = 0.3;
+/** Share of the points whose gaps, those of least priority, take no part in a round: so the widest are filled first. A round fills about
+ * 0.4 gaps a point, so it is the last when not more than kLastRound a point are to be filled; of that one the best are taken. */
+constexpr double kShareLeft = 0.2, kShareLeftOfLast = 0.05, kLastRound = 0.5;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 template <class Arrays>
@@ -53,7 +54,7 @@ UpsamplingRounds::searchGaps(std::size_t begin, std::size_t end, float above_sq)
 {
   GapSearch::Scratch scratch;
   search_.widest(cloud_, begin, end, static_cast<std::uint32_t>(searched_), above_sq, reach_, static_cast<float>(plan_.radius), scratch,
-                 cloud_.gaps().data() + begin);
+                 cloud_.gaps().data() + kGapsOfPoint * begin);
 }
 
 void
@@ -70,15 +71,15 @@ UpsamplingRounds::widestClearance()
   std::vector<Gap>& gaps = cloud_.gaps();
   const auto narrower = [](const Gap& a, const Gap& b) { return a.clearance_sq < b.clearance_sq; };
   // What the gaps were is what they are at most: first the most promising of each task, then all that may be wider than those.
-  std::vector<float> found((gaps.size() + kPointsPerTask - 1) / kPointsPerTask);
-  parallelBlocks(gaps.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
-    const auto widest = std::max_element(gaps.begin() + static_cast<std::ptrdiff_t>(begin), gaps.begin() + static_cast<std::ptrdiff_t>(end), narrower);
-    const auto k = static_cast<std::size_t>(widest - gaps.begin());
+  std::vector<float> found((cloud_.size() + kPointsPerTask - 1) / kPointsPerTask);
+  const auto at = [&gaps](std::size_t k) { return gaps.begin() + static_cast<std::ptrdiff_t>(kGapsOfPoint * k); };
+  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t k = static_cast<std::size_t>(std::max_element(at(begin), at(end), narrower) - gaps.begin()) / kGapsOfPoint;
     searchGaps(k, k + 1, -1.0f);
-    found[begin / kPointsPerTask] = widest->clearance_sq;
+    found[begin / kPointsPerTask] = at(k)->clearance_sq;
   });
   const float least = *std::max_element(found.begin(), found.end());
-  parallelBlocks(gaps.size(), kPointsPerTask, plan_.threads,
+  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads,
                  [&](std::size_t begin, std::size_t end) { searchGaps(begin, end, least); });
   return std::sqrt(std::max_element(gaps.begin(), gaps.end(), narrower)->clearance_sq);
 }
@@ -94,12 +95,14 @@ UpsamplingRounds::leastPriority() const
 {
   std::vector<float> priorities;
   priorities.reserve(cloud_.size());
-  for (const Gap& gap : cloud_.gaps())
-    if (counts(gap))
-      priorities.push_back(gap.priority);
+  for (std::size_t k = 0; k < cloud_.gaps().size(); k += kGapsOfPoint) // the best of each point
+    if (counts(cloud_.gaps()[k]))
+      priorities.push_back(cloud_.gaps()[k].priority);
   if (priorities.empty())
     return kUnknown;
-  const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(priorities.size()) * kShareLeft);
+  const bool last = static_cast<double>(plan_.target - cloud_.size()) <= kLastRound * static_cast<double>(cloud_.size());
+  const double share = last ? kShareLeftOfLast : kShareLeft;
+  const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(priorities.size()) * share);
   std::nth_element(priorities.begin(), middle, priorities.end());
   return *middle;
 }
@@ -120,20 +123,19 @@ UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
 {
   const std::size_t count = chosen.size(), before = cloud_.size() - input_size_;
   ProjectionQueries queries(count);
-  std::vector<Gap> gaps(count);
   for (std::vector<std::uint32_t>* values : {&parents_, &first_base_, &second_base_})
     values->resize(before + count);
   parallelBlocks(count, kCopiesPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       const Gap& gap = cloud_.gaps()[chosen[c]];
-      const std::array<float, 3> v = cloud_.position(chosen[c]);
+      const std::size_t place = chosen[c] / kGapsOfPoint;
+      const std::array<float, 3> v = cloud_.position(place);
       const float dx = gap.base[0] - v[0], dy = gap.base[1] - v[1], dz = gap.base[2] - v[2];
       setVector(queries.positions, c, gap.base);
-      setVector(queries.directions[0], c, cloud_.normal(chosen[c]));
+      setVector(queries.directions[0], c, cloud_.normal(place));
       setVector(queries.directions[1], c, cloud_.normal(cloud_.placeOf(gap.partner)));
       queries.longest_move[c] = 2.0f * std::sqrt(dx * dx + dy * dy + dz * dz);
-      gaps[c].clearance_sq = gap.clearance_sq; // what was free around the new point
-      first_base_[before + c] = cloud_.numbers()[chosen[c]];
+      first_base_[before + c] = cloud_.numbers()[place];
       second_base_[before + c] = gap.partner;
     }
   });
@@ -145,7 +147,7 @@ UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
                                                                           : parents_[v - input_size_];
   }
   const auto vectors = [](const SoaBuffer& from) { return kernels::Vectors<float>{from.x.data(), from.y.data(), from.z.data()}; };
-  cloud_.insert(chosen, vectors(projected.positions), vectors(projected.normals), gaps);
+  cloud_.insert(chosen, vectors(projected.positions), vectors(projected.normals));
 }
 
 void

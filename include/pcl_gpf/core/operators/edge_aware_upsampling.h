@@ -91,11 +91,13 @@ upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters,
                   NormalsView normals,
                   const ProgressCallback& progress = {});
 
-/** \brief The same for points that have an index already; points and normals are in sorted order, and so are the numbers of the result. */
+/** \brief The same for points that have an index already; points and normals are in sorted order, and so are the numbers of the result.
+ * \param[in] spacing of the points, as estimateSpacing() gives it */
 PCL_GPF_CORE_EXPORT EdgeAwareUpsamplingResult
 upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters,
                   const PointIndex& points,
                   NormalsView normals,
+                  double spacing,
                   const ProgressCallback& progress = {});
 
 } // namespace pcl_gpf
