@@ -48,8 +48,8 @@ GapSearch::GapSearch(double edge_sensitivity, bool sign_invariant)
 }
 
 void
-GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end, std::uint32_t first_new, float above_sq,
-                  float reach, float farthest, Scratch& scratch, Gap* gaps) const
+GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end, std::uint32_t first_new, float reach,
+                  float farthest, Scratch& scratch, Gap* gaps) const
 {
   const auto position = [&](std::size_t k) { return cloud.position(k); };
   std::vector<float>& radius_sq = scratch.radius_sq_;
@@ -76,9 +76,6 @@ GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end,
   forPatches(begin, end, kWidestDescent * reach, position, [&](std::size_t wide_first, std::size_t wide_last, const FloatBox& wide_box) {
     cloud.tree().collectGroups(wide_box, std::sqrt(largest(wide_first, wide_last)), scratch.groups_);
     forPatches(wide_first, wide_last, kWidestBox * reach, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
-      Gap* own = gaps + kGapsOfPoint * (first - begin);
-      if (std::none_of(own, own + kGapsOfPoint * (last - first), [above_sq](const Gap& gap) { return gap.clearance_sq > above_sq; }))
-        return;
       a.largest_radius_sq = largest(first, last);
       scratch.runs_.clear();
       cloud.tree().collectRuns(scratch.groups_, box, std::sqrt(a.largest_radius_sq), scratch.runs_);
@@ -94,7 +91,7 @@ GapSearch::widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end,
       a.last = last;
       a.box = box;
       a.radius_sq = radius_sq.data() + (first - begin);
-      a.gaps = own;
+      a.gaps = gaps + kGapsOfPoint * (first - begin);
       kernels::active().widest_gaps(a);
     });
   });

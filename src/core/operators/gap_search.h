@@ -30,10 +30,10 @@ public:
   /** The gaps of greatest priority between each of the points [begin, end) of the cloud and its neighbours, into `gaps`, kGapsOfPoint each.
    *
    * Neighbours are sought within `reach`, or farther where the gap known before is wide, at most within `farthest`. Where no point
-   * near has a number of at least `first_new`, and where no gap known before has a clearance above `above_sq`, gaps stay as they are. */
+   * near has a number of at least `first_new`, gaps stay as they are. */
   void
-  widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end, std::uint32_t first_new, float above_sq, float reach,
-         float farthest, Scratch& scratch, Gap* gaps) const;
+  widest(const GrowingCloud& cloud, std::size_t begin, std::size_t end, std::uint32_t first_new, float reach, float farthest,
+         Scratch& scratch, Gap* gaps) const;
 
 private:
   std::vector<float> edge_factors_; ///< (2 - c)^rho at even steps of c from 1 down to -1

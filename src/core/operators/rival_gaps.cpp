@@ -17,8 +17,9 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kGapsPerTask = 256;
-/** Gaps are looked at together while the box of their bases is at most this many of their clearances wide. */
-constexpr float kWidestBox = 3.0f;
+/** Gaps are looked at together while the box of their bases is at most this many of their clearances wide; those of one descent into
+ * the tree while theirs is so many. */
+constexpr float kWidestBox = 2.0f, kWidestDescent = 12.0f;
 
 /** The rivals' bases with the tree over them, in the order given. */
 struct Rivals {
@@ -54,13 +55,20 @@ struct BetterLists {
     const auto position = [&](std::size_t k) { return std::array<float, 3>{bases.x[k], bases.y[k], bases.z[k]}; };
     parallelBlocks(bases.size, kGapsPerTask, threads, [&](std::size_t begin, std::size_t end) {
       const float* clearances = rivals.clearance_sq.data();
-      const float widest = std::sqrt(*std::max_element(clearances + begin, clearances + end));
+      const auto widest = [clearances](std::size_t first, std::size_t last) {
+        return std::sqrt(*std::max_element(clearances + first, clearances + last));
+      };
       std::vector<std::uint32_t>& better = of_task[begin / kGapsPerTask];
+      std::vector<std::uint32_t> groups;
       std::vector<Run> candidates;
-      forPatches(begin, end, kWidestBox * widest, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
-        candidates.clear();
-        rivals.tree.collectRuns(box, std::sqrt(*std::max_element(clearances + first, clearances + last)), candidates);
-        appendRows(rivals, candidates, first, last, better);
+      const float unit = widest(begin, end);
+      forPatches(begin, end, kWidestDescent * unit, position, [&](std::size_t wide_first, std::size_t wide_last, const FloatBox& wide_box) {
+        rivals.tree.collectGroups(wide_box, unit, groups);
+        forPatches(wide_first, wide_last, kWidestBox * unit, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+          candidates.clear();
+          rivals.tree.collectRuns(groups, box, widest(first, last), candidates);
+          appendRows(rivals, candidates, first, last, better);
+        });
       });
     });
   }

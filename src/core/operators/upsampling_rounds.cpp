@@ -50,38 +50,26 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex&
 }
 
 void
-UpsamplingRounds::searchGaps(std::size_t begin, std::size_t end, float above_sq)
-{
-  GapSearch::Scratch scratch;
-  search_.widest(cloud_, begin, end, static_cast<std::uint32_t>(searched_), above_sq, reach_, static_cast<float>(plan_.radius), scratch,
-                 cloud_.gaps().data() + kGapsOfPoint * begin);
-}
-
-void
 UpsamplingRounds::searchGaps()
 {
-  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads,
-                 [this](std::size_t begin, std::size_t end) { searchGaps(begin, end, -1.0f); });
+  const auto first_new = static_cast<std::uint32_t>(searched_);
+  Gap* gaps = cloud_.gaps().data();
+  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+    GapSearch::Scratch scratch;
+    search_.widest(cloud_, begin, end, first_new, reach_, static_cast<float>(plan_.radius), scratch, gaps + kGapsOfPoint * begin);
+  });
   searched_ = cloud_.size();
+  least_filled_ = kUnknown;
 }
 
 float
-UpsamplingRounds::widestClearance()
+UpsamplingRounds::widestClearance() const
 {
-  std::vector<Gap>& gaps = cloud_.gaps();
-  const auto narrower = [](const Gap& a, const Gap& b) { return a.clearance_sq < b.clearance_sq; };
-  // What the gaps were is what they are at most: first the most promising of each task, then all that may be wider than those.
-  std::vector<float> found((cloud_.size() + kPointsPerTask - 1) / kPointsPerTask);
-  const auto at = [&gaps](std::size_t k) { return gaps.begin() + static_cast<std::ptrdiff_t>(kGapsOfPoint * k); };
-  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
-    const std::size_t k = static_cast<std::size_t>(std::max_element(at(begin), at(end), narrower) - gaps.begin()) / kGapsOfPoint;
-    searchGaps(k, k + 1, -1.0f);
-    found[begin / kPointsPerTask] = at(k)->clearance_sq;
-  });
-  const float least = *std::max_element(found.begin(), found.end());
-  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads,
-                 [&](std::size_t begin, std::size_t end) { searchGaps(begin, end, least); });
-  return std::sqrt(std::max_element(gaps.begin(), gaps.end(), narrower)->clearance_sq);
+  float widest_sq = 0.0f;
+  for (const Gap& gap : cloud_.gaps())
+    if (gap.priority > 0.0f && gap.priority < least_filled_)
+      widest_sq = std::max(widest_sq, gap.clearance_sq);
+  return std::sqrt(widest_sq);
 }
 
 bool
@@ -178,6 +166,8 @@ UpsamplingRounds::step()
   if (rounds_++ == 0)
     first_priority_ = static_cast<double>(least);
   last_priority_ = least;
+  for (const std::uint32_t gap : chosen)
+    least_filled_ = std::min(least_filled_, cloud_.gaps()[gap].priority);
   insert(chosen);
   reach_ = std::min(reach_, kReachInClearances * std::sqrt(least));
   return true;
@@ -210,6 +200,8 @@ UpsamplingRounds::result()
   result.first_base = first_base_;
   result.second_base = second_base_;
   result.radius = plan_.radius;
+  if (searched_ == 0)
+    searchGaps(); // nothing was to be inserted
   result.widest_gap = static_cast<double>(widestClearance());
   result.rounds = rounds_;
   result.target_reached = plan_.least_clearance > 0.0 || cloud_.size() >= plan_.target;

@@ -47,11 +47,9 @@ public:
 private:
   void
   searchGaps();
-  void
-  searchGaps(std::size_t begin, std::size_t end, float above_sq);
-  /** Of the gaps that are left. */
+  /** Of the gaps that are left: the last round has filled, or made smaller, all of a priority from the least that it filled. */
   float
-  widestClearance();
+  widestClearance() const;
   bool
   counts(const Gap& gap) const;
   float
@@ -77,6 +75,7 @@ private:
   float least_clearance_sq_ = 0;
   double first_priority_ = 0;
   float last_priority_ = 0;
+  float least_filled_ = 0; ///< priority, of the gaps filled since the last search
   std::size_t rounds_ = 0;
 };
 
