@@ -178,28 +178,47 @@ private:
   HWY_INLINE void
   choose(std::size_t k, std::size_t bases)
   {
-    Gap* gaps = a_.gaps + kGapsOfPoint * (k - a_.first);
-    std::size_t first = bases, second = bases;
-    float* priority = a_.scratch->priority.data();
+    const D d;
     const GapScratch& s = *a_.scratch;
-    float most = 0.0f;
-    for (std::size_t t = 0; t < bases; ++t) {
-      priority[t] = a_.largest_factor > 1.0f ? s.clearance_sq[t] * edgeFactor(a_.edge_factors, s.cosine[t]) : s.clearance_sq[t];
-      if (priority[t] > most) {
-        most = priority[t];
-        first = t;
-      }
-    }
-    most = 0.0f;
-    for (std::size_t t = 0; t < bases && first < bases; ++t) {
-      const float dx = s.bases.x[t] - s.bases.x[first], dy = s.bases.y[t] - s.bases.y[first], dz = s.bases.z[t] - s.bases.z[first];
-      if (priority[t] > most && dx * dx + dy * dy + dz * dz >= s.clearance_sq[t]) {
-        most = priority[t];
-        second = t;
-      }
-    }
+    float* priority = a_.scratch->priority.data();
+    if (a_.largest_factor > 1.0f)
+      for (std::size_t t = 0; t < bases; ++t)
+        priority[t] = s.clearance_sq[t] * edgeFactor(a_.edge_factors, s.cosine[t]);
+    else
+      for (std::size_t t = 0; t < bases; t += lanes_)
+        hn::StoreU(hn::LoadU(d, s.clearance_sq.data() + t), d, priority + t);
+    Gap* gaps = a_.gaps + kGapsOfPoint * (k - a_.first);
+    const std::size_t first = firstOfMost(bases);
     gaps[0] = gap(k, first, bases);
-    gaps[1] = gap(k, second, bases);
+    if (first < bases) {
+      const auto x = hn::Set(d, s.bases.x[first]), y = hn::Set(d, s.bases.y[first]), z = hn::Set(d, s.bases.z[first]);
+      for (std::size_t t = 0; t < bases; t += lanes_) {
+        const auto dx = hn::Sub(hn::LoadU(d, s.bases.x.data() + t), x), dy = hn::Sub(hn::LoadU(d, s.bases.y.data() + t), y),
+                   dz = hn::Sub(hn::LoadU(d, s.bases.z.data() + t), z);
+        const auto distance_sq = mulAdd(dz, dz, mulAdd(dy, dy, hn::Mul(dx, dx)));
+        const auto apart = hn::Ge(distance_sq, hn::LoadU(d, s.clearance_sq.data() + t));
+        hn::StoreU(hn::IfThenElseZero(apart, hn::LoadU(d, priority + t)), d, priority + t);
+      }
+    }
+    gaps[1] = gap(k, firstOfMost(bases), bases);
+  }
+
+  /** The first of the bases that have the greatest priority, above 0; `bases` when there is none. */
+  HWY_INLINE std::size_t
+  firstOfMost(std::size_t bases) const
+  {
+    const D d;
+    float most = 0.0f;
+    std::size_t place = bases;
+    for (std::size_t t = 0; t < bases; t += lanes_) {
+      const auto priority = hn::IfThenElseZero(hn::FirstN(d, bases - t), hn::LoadU(d, a_.scratch->priority.data() + t));
+      const float here = hn::GetLane(hn::MaxOfLanes(d, priority));
+      if (!(here > most))
+        continue;
+      most = here;
+      place = t + static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(priority, hn::Set(d, here))));
+    }
+    return place;
   }
 
   HWY_INLINE Gap

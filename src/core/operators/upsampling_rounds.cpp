@@ -13,7 +13,7 @@ namespace pcl_gpf {
 
 namespace {
 
-constexpr std::size_t kPointsPerTask = 256;
+constexpr std::size_t kPointsPerTask = 1024;
 constexpr std::size_t kCopiesPerTask = 65536;
 /** Clearances below this, in the frame whose box diagonal is 1, are rounding. */
 constexpr float kLeastClearance = 1e-6f;
@@ -21,7 +21,7 @@ constexpr float kLeastClearance = 1e-6f;
 constexpr float kReachInClearances = 3.6f;
 /** Share of the points whose gaps, those of least priority, take no part in a round: so the widest are filled first. A round fills about
  * 0.4 gaps a point, so it is the last when not more than kLastRound a point are to be filled; of that one the best are taken. */
-constexpr double kShareLeft = 0.2, kShareLeftOfLast = 0.05, kLastRound = 0.5;
+constexpr double kShareLeft = 0.15, kShareLeftOfLast = 0.1, kLastRound = 0.5;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 template <class Arrays>
@@ -88,7 +88,7 @@ UpsamplingRounds::leastPriority() const
       priorities.push_back(cloud_.gaps()[k].priority);
   if (priorities.empty())
     return kUnknown;
-  const bool last = static_cast<double>(plan_.target - cloud_.size()) <= kLastRound * static_cast<double>(cloud_.size());
+  const bool last = static_cast<double>(plan_.target - size()) <= kLastRound * static_cast<double>(cloud_.size());
   const double share = last ? kShareLeftOfLast : kShareLeft;
   const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(priorities.size()) * share);
   std::nth_element(priorities.begin(), middle, priorities.end());
@@ -107,9 +107,9 @@ UpsamplingRounds::chooseBases(float least) const
 }
 
 void
-UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
+UpsamplingRounds::fill(const std::vector<std::uint32_t>& chosen)
 {
-  const std::size_t count = chosen.size(), before = cloud_.size() - input_size_;
+  const std::size_t count = chosen.size(), before = parents_.size();
   ProjectionQueries queries(count);
   for (std::vector<std::uint32_t>* values : {&parents_, &first_base_, &second_base_})
     values->resize(before + count);
@@ -134,8 +134,26 @@ UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
                            : v < input_size_                              ? v
                                                                           : parents_[v - input_size_];
   }
-  const auto vectors = [](const SoaBuffer& from) { return kernels::Vectors<float>{from.x.data(), from.y.data(), from.z.data()}; };
-  cloud_.insert(chosen, vectors(projected.positions), vectors(projected.normals));
+  const auto append = [](std::vector<float>& to, const AlignedArray<float>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(x_, projected.positions.x);
+  append(y_, projected.positions.y);
+  append(z_, projected.positions.z);
+  append(nx_, projected.normals.x);
+  append(ny_, projected.normals.y);
+  append(nz_, projected.normals.z);
+  filled_ = chosen;
+}
+
+void
+UpsamplingRounds::joinInserted()
+{
+  if (filled_.empty())
+    return;
+  const std::size_t first = parents_.size() - filled_.size();
+  cloud_.insert(filled_, {x_.data() + first, y_.data() + first, z_.data() + first}, {nx_.data() + first, ny_.data() + first, nz_.data() + first});
+  filled_.clear();
 }
 
 void
@@ -154,21 +172,22 @@ UpsamplingRounds::keepBest(std::vector<std::uint32_t>& chosen, std::size_t count
 bool
 UpsamplingRounds::step()
 {
-  if (cloud_.size() >= plan_.target)
+  if (size() >= plan_.target)
     return false;
+  joinInserted();
   searchGaps();
   const float least = leastPriority();
   std::vector<std::uint32_t> chosen = chooseBases(least);
   if (chosen.empty())
     return false;
-  if (chosen.size() > plan_.target - cloud_.size())
-    keepBest(chosen, plan_.target - cloud_.size());
+  if (chosen.size() > plan_.target - size())
+    keepBest(chosen, plan_.target - size());
   if (rounds_++ == 0)
     first_priority_ = static_cast<double>(least);
   last_priority_ = least;
   for (const std::uint32_t gap : chosen)
     least_filled_ = std::min(least_filled_, cloud_.gaps()[gap].priority);
-  insert(chosen);
+  fill(chosen);
   reach_ = std::min(reach_, kReachInClearances * std::sqrt(least));
   return true;
 }
@@ -176,7 +195,7 @@ UpsamplingRounds::step()
 double
 UpsamplingRounds::fractionDone() const
 {
-  const double by_count = static_cast<double>(cloud_.size() - input_size_) / std::max(1.0, static_cast<double>(plan_.target - input_size_));
+  const double by_count = static_cast<double>(parents_.size()) / std::max(1.0, static_cast<double>(plan_.target - input_size_));
   if (plan_.least_clearance <= 0.0 || rounds_ == 0)
     return plan_.least_clearance > 0.0 ? 0.0 : by_count;
   const double goal = std::log(first_priority_ / static_cast<double>(least_clearance_sq_));
@@ -188,14 +207,16 @@ EdgeAwareUpsamplingResult
 UpsamplingRounds::result()
 {
   EdgeAwareUpsamplingResult result;
-  const std::size_t count = cloud_.size() - input_size_;
+  const std::size_t count = parents_.size();
   result.points = SoaBuffer(count);
   result.normals = SoaBuffer(count);
-  for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t place = cloud_.placeOf(static_cast<std::uint32_t>(input_size_ + c));
-    setVector(result.points, c, cloud_.position(place));
-    setVector(result.normals, c, cloud_.normal(place));
-  }
+  const auto copy = [](const std::vector<float>& from, AlignedArray<float>& to) { std::copy(from.begin(), from.end(), to.begin()); };
+  copy(x_, result.points.x);
+  copy(y_, result.points.y);
+  copy(z_, result.points.z);
+  copy(nx_, result.normals.x);
+  copy(ny_, result.normals.y);
+  copy(nz_, result.normals.z);
   result.parents = parents_;
   result.first_base = first_base_;
   result.second_base = second_base_;
@@ -204,7 +225,7 @@ UpsamplingRounds::result()
     searchGaps(); // nothing was to be inserted
   result.widest_gap = static_cast<double>(widestClearance());
   result.rounds = rounds_;
-  result.target_reached = plan_.least_clearance > 0.0 || cloud_.size() >= plan_.target;
+  result.target_reached = plan_.least_clearance > 0.0 || size() >= plan_.target;
   return result;
 }
 

@@ -45,6 +45,7 @@ public:
   result();
 
 private:
+  std::size_t size() const { return input_size_ + parents_.size(); }
   void
   searchGaps();
   /** Of the gaps that are left: the last round has filled, or made smaller, all of a priority from the least that it filled. */
@@ -60,7 +61,10 @@ private:
   void
   keepBest(std::vector<std::uint32_t>& chosen, std::size_t count) const;
   void
-  insert(const std::vector<std::uint32_t>& chosen);
+  fill(const std::vector<std::uint32_t>& chosen);
+  /** Puts the points of the last round between the others; only needed when another round follows. */
+  void
+  joinInserted();
 
   UpsamplingPlan plan_;
   std::size_t input_size_;
@@ -68,7 +72,9 @@ private:
   GapSearch search_;
   GrowingCloud cloud_;
 
+  std::vector<float> x_, y_, z_, nx_, ny_, nz_;                   ///< of inserted points
   std::vector<std::uint32_t> parents_, first_base_, second_base_; ///< of inserted points
+  std::vector<std::uint32_t> filled_; ///< gaps that the last round filled
 
   std::size_t searched_ = 0; ///< points that have been searched
   float reach_ = 0;          ///< within which partners are sought where gaps are not wide; shrinks with them
