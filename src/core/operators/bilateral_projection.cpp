@@ -19,6 +19,12 @@ constexpr double kLeastShare = 0.3;
 constexpr double kLeastRatio = 0.4;
 constexpr double kDistanceFalloff = 4.0;
 
+double
+dotOf(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 } // namespace
 
 /** Weighted means seen along one candidate normal. */
@@ -83,7 +89,8 @@ BilateralProjection::projectOne(const ProjectionQueries& queries, std::size_t k,
   const double least_weight = std::max(kLeastWeight, kLeastShare * std::max(a.weight, c.weight));
   const bool a_counts = a.weight > least_weight, c_counts = c.weight > least_weight;
   if (a_counts || c_counts) {
-    const bool take_a = a_counts && (!c_counts || std::abs(a.offset) <= std::abs(c.offset));
+    const bool a_is_nearer = std::abs(a.offset) <= std::abs(c.offset);
+    const bool take_a = a_counts && (!c_counts || a_is_nearer != fartherServes(a, c));
     const Side& side = take_a ? a : c;
     normal = side.normal;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -100,13 +107,26 @@ BilateralProjection::projectOne(const ProjectionQueries& queries, std::size_t k,
   }
 }
 
+/** Whether the foot of b on the plane that lies farther away is a point of that face. Half-way between v on one face and t on the other
+ * it is the foot that lies nearer to the edge; where faces meet at more than 90 degrees it may lie beyond the edge, in the air. */
+bool
+BilateralProjection::fartherServes(const Side& a, const Side& c) const
+{
+  const double cosine = dotOf(a.normal, c.normal);
+  if ((sign_invariant_ ? std::abs(cosine) : cosine) > edge_cosine_)
+    return false; // one face
+  const double lesser = std::min(std::abs(a.offset), std::abs(c.offset)), larger = std::max(std::abs(a.offset), std::abs(c.offset));
+  const bool same_side = a.offset * c.offset > 0.0;
+  if (!sign_invariant_ && !same_side)
+    return false;
+  return lesser > (same_side ? cosine : -cosine) * larger; // normals turned so that b is on the same side of both planes
+}
+
 /** The shortest move onto both planes, if they meet at an angle and near enough. */
 void
 BilateralProjection::moveOntoEdge(const Side& a, const Side& c, double longest, std::array<double, 3>& move) const
 {
-  double cosine = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    cosine += a.normal[axis] * c.normal[axis];
+  const double cosine = dotOf(a.normal, c.normal);
   if ((sign_invariant_ ? std::abs(cosine) : cosine) > edge_cosine_ || !(cosine * cosine < 0.97))
     return;
   const double lesser = std::min(std::abs(a.offset), std::abs(c.offset)), larger = std::max(std::abs(a.offset), std::abs(c.offset));

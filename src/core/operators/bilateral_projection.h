@@ -40,7 +40,8 @@ public:
   /** \param[in] normals in sorted order \param[in] angle sigma_n in radians */
   BilateralProjection(const PointIndex& points, NormalsView normals, double radius, double angle, bool sign_invariant);
 
-  /** Moves each point along the normal, that of the one side or of the other, which moves it less. */
+  /** Moves each point along the normal of the one side or of the other: in a face that which moves it less, beside an edge that which
+   * brings it nearer to the edge, and onto the edge itself where both are alike. */
   ProjectedPoints
   project(const ProjectionQueries& queries, std::size_t threads) const;
 
@@ -51,6 +52,8 @@ private:
   side(const Sums& sums, std::size_t which, std::size_t place) const;
   void
   projectOne(const ProjectionQueries& queries, std::size_t k, const Side& a, const Side& c, ProjectedPoints& to) const;
+  bool
+  fartherServes(const Side& a, const Side& c) const;
   void
   moveOntoEdge(const Side& a, const Side& c, double longest, std::array<double, 3>& move) const;
 
