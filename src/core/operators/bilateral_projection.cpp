@@ -17,6 +17,8 @@ constexpr double kLeastWeight = 1e-6;
 constexpr double kLeastShare = 0.3;
 /** Of the distances to two planes, for a move onto both: less, and the point lies on one of them already. */
 constexpr double kLeastRatio = 0.4;
+/** The same, for the farther plane at a sharp edge: less may be rounding. */
+constexpr double kLeastOfSharp = 0.05;
 constexpr double kDistanceFalloff = 4.0;
 
 double
@@ -116,10 +118,11 @@ BilateralProjection::fartherServes(const Side& a, const Side& c) const
   if ((sign_invariant_ ? std::abs(cosine) : cosine) > edge_cosine_)
     return false; // one face
   const double lesser = std::min(std::abs(a.offset), std::abs(c.offset)), larger = std::max(std::abs(a.offset), std::abs(c.offset));
-  const bool same_side = a.offset * c.offset > 0.0;
-  if (!sign_invariant_ && !same_side)
-    return false;
-  return lesser > (same_side ? cosine : -cosine) * larger; // normals turned so that b is on the same side of both planes
+  const double sides = a.offset * c.offset; // > 0: b lies above both planes, or below both
+  if (!sign_invariant_)
+    return sides > 0.0 && lesser > cosine * larger;
+  // Without signs: normals that agree with the sides are those of an edge of more than 90 degrees, others of a sharper one.
+  return lesser > std::max(kLeastOfSharp, sides * cosine > 0.0 ? std::abs(cosine) : 0.0) * larger;
 }
 
 /** The shortest move onto both planes, if they meet at an angle and near enough. */
