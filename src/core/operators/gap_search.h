@@ -27,7 +27,8 @@ public:
 
   GapSearch(double edge_sensitivity, bool sign_invariant);
 
-  /** The gaps of greatest priority between each of the points [begin, end) of the cloud and its neighbours, into `gaps`, kGapsOfPoint each.
+  /** The gaps of greatest priority between each of the points [begin, end) of the cloud and its neighbours, into `gaps`,
+   * kGapsOfPoint each.
    *
    * Neighbours are sought within `reach`, or farther where the gap known before is wide, at most within `farthest`. Where no point
    * near has a number of at least `first_new`, gaps stay as they are. */
