@@ -14,6 +14,7 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kPacksPerTask = 512;
+constexpr std::size_t kNodesAtOnce = 256;
 
 FloatBox
 emptyBox()
@@ -103,13 +104,12 @@ constexpr std::array<BitSegments, 256> kBitSegments = makeBitSegments();
 
 /** near[k]: which of the 8 boxes of packs[nodes[k]] come within `radius` of `box`, a bit each. */
 void
-findNear(const std::vector<BoxPack>& packs, const std::vector<std::uint32_t>& nodes, const FloatBox& box, float radius,
-         std::vector<std::uint8_t>& near)
+findNear(const std::vector<BoxPack>& packs, const std::uint32_t* nodes, std::size_t count, const FloatBox& box, float radius,
+         std::uint8_t* near)
 {
-  near.resize(nodes.size());
   // Boxes that are not there are at infinity, beyond any finite square.
   const float radius_sq = std::min(radius * radius, std::numeric_limits<float>::max());
-  kernels::active().near_children({packs.data(), nodes.data(), nodes.size(), box, radius_sq, near.data()});
+  kernels::active().near_children({packs.data(), nodes, count, box, radius_sq, near});
 }
 
 } // namespace
@@ -177,7 +177,8 @@ ClusterTree::collectGroups(const FloatBox& box, float radius, std::vector<std::u
   std::vector<std::uint32_t> children;
   std::vector<std::uint8_t> near;
   for (std::size_t level = levels_.size() - 1; level > 0; --level) {
-    findNear(levels_[level], groups, box, radius, near);
+    near.resize(groups.size());
+    findNear(levels_[level], groups.data(), groups.size(), box, radius, near.data());
     children.clear();
     for (std::size_t k = 0; k < groups.size(); ++k)
       for (std::uint32_t c = 0; c < kFanout; ++c)
@@ -190,17 +191,21 @@ ClusterTree::collectGroups(const FloatBox& box, float radius, std::vector<std::u
 void
 ClusterTree::collectRuns(const std::vector<std::uint32_t>& groups, const FloatBox& box, float radius, std::vector<Run>& runs) const
 {
-  std::vector<std::uint8_t> near;
-  findNear(levels_.front(), groups, box, radius, near);
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    const BitSegments& segments = kBitSegments[near[k]];
-    for (std::size_t s = 0; s < segments.count; ++s) {
-      const auto begin = static_cast<std::uint32_t>((groups[k] * kFanout + segments.begin[s]) * kClusterSize);
-      const auto end = static_cast<std::uint32_t>(std::min(size_, (groups[k] * kFanout + segments.end[s]) * kClusterSize));
-      if (!runs.empty() && runs.back().end == begin)
-        runs.back().end = end;
-      else
-        runs.push_back({begin, end});
+  std::uint8_t near[kNodesAtOnce]; // not allocated: the search of few boxes is short
+  for (std::size_t first = 0; first < groups.size(); first += kNodesAtOnce) {
+    const std::size_t count = std::min(groups.size() - first, kNodesAtOnce);
+    findNear(levels_.front(), groups.data() + first, count, box, radius, near);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t group = groups[first + k];
+      const BitSegments& segments = kBitSegments[near[k]];
+      for (std::size_t s = 0; s < segments.count; ++s) {
+        const auto begin = static_cast<std::uint32_t>((group * kFanout + segments.begin[s]) * kClusterSize);
+        const auto end = static_cast<std::uint32_t>(std::min(size_, (group * kFanout + segments.end[s]) * kClusterSize));
+        if (!runs.empty() && runs.back().end == begin)
+          runs.back().end = end;
+        else
+          runs.push_back({begin, end});
+      }
     }
   }
 }

@@ -56,7 +56,8 @@ fillGaps(const DenoiseInput& input, const Packed& packed, EdgeAwareUpsamplingPar
   parameters.spacing = packed.frame.lengthToLocal(parameters.spacing);
   const PointsView points = packed.index->sorted();
   const auto report = [&progress](double fraction) { return !progress || progress("upsampling", fraction); };
-  const EdgeAwareUpsamplingResult made = upsampleEdgeAware(parameters, points, packed.normals.view(), report);
+  const EdgeAwareUpsamplingResult made = upsampleEdgeAware(parameters, *packed.index, packed.normals.view(),
+                                                           packed.frame.lengthToLocal(result.spacing), report);
   result.radius = packed.frame.lengthToWorld(made.radius);
   result.widest_gap = packed.frame.lengthToWorld(made.widest_gap);
   result.rounds = made.rounds;

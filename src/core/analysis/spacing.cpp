@@ -17,6 +17,47 @@ constexpr std::size_t kMostProbes = 1024;
 constexpr std::size_t kNeighbor = 16;
 constexpr double kPi = 3.14159265358979323846;
 
+/** Squared distances of one point. */
+class NeighborDistances {
+public:
+  explicit NeighborDistances(const PointIndex& points) : points_(points) {}
+
+  /** To the neighbour-th nearest other point. Those near on the curve tell how far the tree has to be searched. */
+  float
+  of(std::size_t i, std::size_t neighbor)
+  {
+    const std::size_t window = std::min(points_.size(), 2 * kNeighbor + 1);
+    const std::size_t begin = std::min(i - std::min(i, kNeighbor), points_.size() - window);
+    runs_.assign(1, {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + window)});
+    const float bound = smallest(i, neighbor);
+    const PointsView p = points_.sorted();
+    const std::array<float, 3> position{p.x[i], p.y[i], p.z[i]};
+    runs_.clear();
+    points_.tree().collectRuns({position, position}, std::sqrt(bound) * 1.0001f, runs_);
+    return smallest(i, neighbor);
+  }
+
+private:
+  float
+  smallest(std::size_t i, std::size_t rank)
+  {
+    const PointsView p = points_.sorted();
+    distances_sq_.clear();
+    for (const Run run : runs_)
+      for (std::uint32_t j = run.begin; j < run.end; ++j) {
+        const float dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i], dz = p.z[j] - p.z[i];
+        distances_sq_.push_back(dx * dx + dy * dy + dz * dz);
+      }
+    const auto middle = distances_sq_.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(distances_sq_.begin(), middle, distances_sq_.end());
+    return *middle;
+  }
+
+  const PointIndex& points_;
+  std::vector<Run> runs_;
+  std::vector<float> distances_sq_;
+};
+
 } // namespace
 
 double
@@ -35,12 +76,9 @@ estimateSpacing(const PointIndex& points, unsigned number_of_threads)
   const std::size_t probes = std::min(kMostProbes, points.size());
   std::vector<float> distances_sq(probes);
   parallelBlocks(probes, 64, resolveThreads(number_of_threads), [&](std::size_t begin, std::size_t end) {
-    std::vector<float> nearest_sq;
-    for (std::size_t probe = begin; probe < end; ++probe) {
-      const std::size_t i = probe * points.size() / probes; // even steps along the curve: even over the surface
-      points.tree().nearest(view, {view.x[i], view.y[i], view.z[i]}, neighbor + 1, nearest_sq);
-      distances_sq[probe] = nearest_sq.back();
-    }
+    NeighborDistances distances(points);
+    for (std::size_t probe = begin; probe < end; ++probe) // even steps along the curve: even over the surface
+      distances_sq[probe] = distances.of(probe * points.size() / probes, neighbor);
   });
   // Duplicates have no spacing; the median is taken over points that have neighbours elsewhere.
   distances_sq.erase(std::remove(distances_sq.begin(), distances_sq.end(), 0.0f), distances_sq.end());

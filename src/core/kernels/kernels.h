@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../neighborhoods.h"
+#include "gaps.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -143,6 +144,52 @@ struct FieldSums {
   float* second_sum = nullptr;
 };
 
+/** Sums of the planes of the data in reach, seen along two directions m of each query: weight = exp(-falloff r^2 / radius^2 - ((1 - m.n)
+ * angle_falloff)^2), offset = sum of weight * (query - datum).n, normal = sum of weight * n. */
+struct SideSums {
+  Vectors<float> queries, directions[2], data, data_normals;
+  Radius<float> radius;
+  float falloff = 0;
+  float angle_falloff = 0;    ///< 1 / (1 - cos sigma_n)
+  bool sign_invariant = true; ///< normals are turned towards the direction
+  const float* data_numbers = nullptr; ///< 32 bits that name a datum, whatever they are
+  std::size_t first_output = 0;        ///< query whose results go to the first place of the arrays below
+  float* weight[2] = {};
+  float* offset[2] = {};
+  MutableVectors<float> normal[2];
+  float* nearest[2] = {};     ///< the number of the datum of largest weight; 0 when there is none
+};
+
+/** The gaps of greatest priority beside each of the points [first, last), which lie near each other. Runs hold their candidates. */
+struct WidestGaps {
+  Vectors<float> points, normals;
+  const std::uint32_t* numbers = nullptr; ///< of the points; each pair is looked at by one end, which the numbers decide
+  const Run* runs = nullptr;
+  std::size_t run_count = 0, first = 0, last = 0;
+  FloatBox box;                           ///< of the points [first, last)
+  const float* radius_sq = nullptr;       ///< of each of them, within which neighbours are sought
+  float largest_radius_sq = 0;
+  bool sign_invariant = true;
+  float parallel = 0, steep_sq = 0;       ///< pairs with |cos| above the first and a squared slope above the second are no gap
+  float opposite = 0;                     ///< pairs with signs and a cos below this are no gap
+  const float* edge_factors = nullptr;    ///< as edgeFactor() takes them
+  float largest_factor = 1;               ///< 1: all factors are 1
+  GapScratch* scratch = nullptr;          ///< with room for all candidates
+  Gap* gaps = nullptr;                    ///< kGapsOfPoint of first, of first + 1 ...
+};
+
+/** For each of the gaps [first, last) those among the runs that are better, of greater priority or equal priority and before it, and
+ * whose base lies within its clearance. Arrays of gaps have room for a vector behind them. */
+struct BetterGaps {
+  Vectors<float> bases;
+  const float* clearance_sq = nullptr;
+  const float* priority = nullptr;
+  const Run* runs = nullptr;
+  std::size_t run_count = 0, first = 0, last = 0;
+  std::uint32_t* better = nullptr;  ///< with room for all pairs and a vector more
+  std::uint32_t* row_end = nullptr; ///< of each gap, counted from `better`
+};
+
 /** Candidates of the blocks, as in Neighborhoods. */
 struct Candidates {
   std::size_t query_count = 0;
@@ -175,6 +222,9 @@ struct KernelSet {
   void (*implicit_sums)(const Candidates&, const ImplicitSums&, std::size_t begin, std::size_t end);
   void (*moments)(const Candidates&, const Moments&, std::size_t begin, std::size_t end);
   void (*field_sums)(const Candidates&, const FieldSums&, std::size_t begin, std::size_t end);
+  void (*side_sums)(const Candidates&, const SideSums&, std::size_t begin, std::size_t end);
+  void (*widest_gaps)(const WidestGaps&);
+  void (*better_gaps)(const BetterGaps&);
   void (*near_children)(const NearChildren&);
 };
 

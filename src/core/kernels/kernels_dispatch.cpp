@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include "better_gaps-inl.h"
 #include "bilateral_normals-inl.h"
 #include "field_sums-inl.h"
 #include "gaussian_sums-inl.h"
@@ -20,6 +21,8 @@
 #include "near_children-inl.h"
 #include "projection-inl.h"
 #include "repulsion-inl.h"
+#include "side_sums-inl.h"
+#include "widest_gaps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_gpf {
@@ -144,9 +147,24 @@ fieldSums(const Candidates& candidates, const FieldSums& a, std::size_t begin, s
     streamPairs<PlainFieldSum, float>(candidates, a, begin, end);
 }
 
+template <class D>
+using SignInvariantSideSum = SideSum<D, true>;
+template <class D>
+using OrientedSideSum = SideSum<D, false>;
+
+static void
+sideSums(const Candidates& candidates, const SideSums& a, std::size_t begin, std::size_t end)
+{
+  if (a.sign_invariant)
+    streamPairs<SignInvariantSideSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<OrientedSideSum, float>(candidates, a, begin, end);
+}
+
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
                               repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
-                              moments,             fieldSums,            nearChildren};
+                              moments,             fieldSums,            sideSums,            widestGaps,
+                              betterGaps,          nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

@@ -22,33 +22,34 @@ constexpr double kRadiusInSpacings = 3.0;
 /** Share of the requested spacing down to which clearances are filled, so that estimateSpacing() of the result is the request. */
 constexpr double kClearanceOfSpacing = 0.775;
 
+/** In the order of `order`, or as they are when that is empty. */
 SoaBuffer
-unitVectors(NormalsView normals)
+unitVectors(NormalsView normals, const std::vector<std::uint32_t>& order)
 {
   SoaBuffer unit(normals.size);
-  for (std::size_t i = 0; i < normals.size; ++i) {
+  for (std::size_t k = 0; k < normals.size; ++k) {
+    const std::size_t i = order.empty() ? k : order[k];
     const double x = normals.x[i], y = normals.y[i], z = normals.z[i];
     const double length = std::sqrt(x * x + y * y + z * z);
-    unit.x[i] = static_cast<float>(x / length);
-    unit.y[i] = static_cast<float>(y / length);
-    unit.z[i] = static_cast<float>(z / length);
+    unit.x[k] = static_cast<float>(x / length);
+    unit.y[k] = static_cast<float>(y / length);
+    unit.z[k] = static_cast<float>(z / length);
   }
   return unit;
 }
 
 /** What the rounds need, all of it known: lengths are set and checked against the data. */
 UpsamplingPlan
-makePlan(const EdgeAwareUpsamplingParameters& p, PointsView points)
+makePlan(const EdgeAwareUpsamplingParameters& p, const PointIndex& points, double spacing)
 {
   UpsamplingPlan plan;
-  plan.target = targetCount(p, points.size);
-  const double spacing = estimateSpacing(points, p.number_of_threads);
+  plan.target = targetCount(p, points.size());
   plan.radius = boundedRadius(p.radius > 0.0 ? p.radius : kRadiusInSpacings * spacing);
   if (p.spacing > 0.0) {
-    const double count = static_cast<double>(points.size) * (spacing / p.spacing) * (spacing / p.spacing);
+    const double count = static_cast<double>(points.size()) * (spacing / p.spacing) * (spacing / p.spacing);
     if (count > static_cast<double>(plan.target))
       throw ExcessiveWork("a spacing of " + toText(p.spacing) + " needs about " + toText(std::round(count)) +
-                          " points, the input has " + std::to_string(points.size) + " with a spacing of " + toText(spacing) +
+                          " points, the input has " + std::to_string(points.size()) + " with a spacing of " + toText(spacing) +
                           " (both in the frame of the points); at most 1000 times as many are made");
     plan.least_clearance = kClearanceOfSpacing * p.spacing;
   }
@@ -57,6 +58,38 @@ makePlan(const EdgeAwareUpsamplingParameters& p, PointsView points)
   plan.sign_invariant = p.sign_invariant;
   plan.threads = resolveThreads(p.number_of_threads);
   return plan;
+}
+
+void
+requireSurface(PointsView points)
+{
+  if (points.size < 3)
+    throw UnsuitableData(std::to_string(points.size) + " points; a surface needs at least 3");
+  if (!spansSurface(points))
+    throw UnsuitableData("all points coincide or lie on one line; there is no surface to fill");
+}
+
+EdgeAwareUpsamplingResult
+upsampleSorted(const EdgeAwareUpsamplingParameters& parameters, const PointIndex& points, double spacing,
+               const SoaBuffer& unit_normals, const ProgressCallback& progress)
+{
+  UpsamplingRounds rounds(makePlan(parameters, points, spacing), points, unit_normals.view());
+  double reported = 0.0;
+  do {
+    reported = std::max(reported, rounds.fractionDone()); // a later estimate may be lower
+    if (progress && !progress(reported))
+      throw Cancelled();
+  } while (rounds.step());
+  EdgeAwareUpsamplingResult result = rounds.result();
+  if (progress && !progress(1.0))
+    throw Cancelled();
+  return result;
+}
+
+double
+secondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 } // namespace
@@ -95,21 +128,27 @@ upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters, PointsView po
 {
   const auto start = std::chrono::steady_clock::now();
   validate(parameters);
-  if (points.size < 3)
-    throw UnsuitableData(std::to_string(points.size) + " points; a surface needs at least 3");
-  if (!spansSurface(points))
-    throw UnsuitableData("all points coincide or lie on one line; there is no surface to fill");
-  UpsamplingRounds rounds(makePlan(parameters, points), points, unitVectors(normals));
-  double reported = 0.0;
-  do {
-    reported = std::max(reported, rounds.fractionDone()); // a later estimate may be lower
-    if (progress && !progress(reported))
-      throw Cancelled();
-  } while (rounds.step());
-  EdgeAwareUpsamplingResult result = rounds.result();
-  if (progress && !progress(1.0))
-    throw Cancelled();
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  requireSurface(points);
+  const PointIndex index(points, parameters.number_of_threads);
+  EdgeAwareUpsamplingResult result = upsampleSorted(parameters, index, estimateSpacing(index, parameters.number_of_threads),
+                                                    unitVectors(normals, index.order()), progress);
+  const std::vector<std::uint32_t>& order = index.order();
+  for (std::vector<std::uint32_t>* numbers : {&result.parents, &result.first_base, &result.second_base})
+    for (std::uint32_t& number : *numbers)
+      number = number < order.size() ? order[number] : number;
+  result.seconds = secondsSince(start);
+  return result;
+}
+
+EdgeAwareUpsamplingResult
+upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters, const PointIndex& points, NormalsView normals,
+                  double spacing, const ProgressCallback& progress)
+{
+  const auto start = std::chrono::steady_clock::now();
+  validate(parameters);
+  requireSurface(points.sorted());
+  EdgeAwareUpsamplingResult result = upsampleSorted(parameters, points, spacing, unitVectors(normals, {}), progress);
+  result.seconds = secondsSince(start);
   return result;
 }
 

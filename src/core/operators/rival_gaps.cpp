@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rival_gaps.h"
 
+#include "../kernels/kernels.h"
 #include "patches.h"
 
+#include <pcl_gpf/core/cluster_tree.h>
 #include <pcl_gpf/core/parallel.h>
-#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/soa_buffer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_gpf {
@@ -15,78 +17,122 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kGapsPerTask = 256;
+/** Gaps are looked at together while the box of their bases is at most this many of their clearances wide; those of one descent into
+ * the tree while theirs is so many. */
+constexpr float kWidestBox = 2.0f, kWidestDescent = 12.0f;
 
-/** Gaps in the order of an index over their bases. */
-struct SortedGaps {
-  PointsView bases;
-  std::vector<std::uint32_t> number;
-  std::vector<float> clearance_sq, priority;
+/** The rivals' bases with the tree over them, in the order given. */
+struct Rivals {
+  SoaBuffer bases;
+  AlignedArray<float> clearance_sq, priority;
+  ClusterTree tree;
 
-  SortedGaps(const PointIndex& index, const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& rivals)
-  : bases(index.sorted()), number(rivals.size()), clearance_sq(rivals.size()), priority(rivals.size())
+  Rivals(const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& places, std::size_t threads)
+  : bases(places.size()), clearance_sq(places.size()), priority(places.size())
   {
-    for (std::size_t k = 0; k < rivals.size(); ++k) {
-      number[k] = rivals[index.order()[k]];
-      clearance_sq[k] = gaps[number[k]].clearance_sq;
-      priority[k] = gaps[number[k]].priority;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Gap& gap = gaps[places[k]];
+      bases.x[k] = gap.base[0];
+      bases.y[k] = gap.base[1];
+      bases.z[k] = gap.base[2];
+      clearance_sq[k] = gap.clearance_sq;
+      priority[k] = gap.priority;
     }
+    tree.fit(view(), threads);
   }
-  bool better(std::size_t j, std::size_t k) const
+  PointsView view() const { return bases.view(); }
+};
+
+/** Rows of better gaps, one task's after another's. */
+struct BetterLists {
+  std::vector<std::vector<std::uint32_t>> of_task; ///< members of all rows of a task
+  std::vector<std::uint32_t> row_end;              ///< of each gap, in the array of its task
+
+  BetterLists(const Rivals& rivals, std::size_t threads)
+  : of_task((rivals.view().size + kGapsPerTask - 1) / kGapsPerTask), row_end(rivals.view().size)
   {
-    return priority[j] > priority[k] || (priority[j] == priority[k] && number[j] < number[k]);
+    const PointsView bases = rivals.view();
+    const auto position = [&](std::size_t k) { return std::array<float, 3>{bases.x[k], bases.y[k], bases.z[k]}; };
+    parallelBlocks(bases.size, kGapsPerTask, threads, [&](std::size_t begin, std::size_t end) {
+      const float* clearances = rivals.clearance_sq.data();
+      const auto widest = [clearances](std::size_t first, std::size_t last) {
+        return std::sqrt(*std::max_element(clearances + first, clearances + last));
+      };
+      std::vector<std::uint32_t>& better = of_task[begin / kGapsPerTask];
+      std::vector<std::uint32_t> groups;
+      std::vector<Run> candidates;
+      const float unit = widest(begin, end);
+      forPatches(begin, end, kWidestDescent * unit, position, [&](std::size_t wide_first, std::size_t wide_last, const FloatBox& wide_box) {
+        rivals.tree.collectGroups(wide_box, unit, groups);
+        forPatches(wide_first, wide_last, kWidestBox * unit, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
+          candidates.clear();
+          rivals.tree.collectRuns(groups, box, widest(first, last), candidates);
+          appendRows(rivals, candidates, first, last, better);
+        });
+      });
+    });
   }
-  bool isBest(std::size_t k, const std::vector<Run>& candidates) const
+
+private:
+  void
+  appendRows(const Rivals& rivals, const std::vector<Run>& candidates, std::size_t first, std::size_t last,
+             std::vector<std::uint32_t>& better)
   {
+    std::size_t pairs = 0;
     for (const Run run : candidates)
-      for (std::uint32_t j = run.begin; j < run.end; ++j) {
-        const float dx = bases.x[j] - bases.x[k], dy = bases.y[j] - bases.y[k], dz = bases.z[j] - bases.z[k];
-        if (dx * dx + dy * dy + dz * dz < clearance_sq[k] && j != k && better(j, k))
-          return false;
-      }
-    return true;
+      pairs += (run.end - run.begin) * (last - first);
+    const std::size_t before = better.size();
+    better.resize(before + pairs + kQueryBlock);
+    kernels::active().better_gaps({{rivals.bases.x.data(), rivals.bases.y.data(), rivals.bases.z.data()}, rivals.clearance_sq.data(),
+                                   rivals.priority.data(), candidates.data(), candidates.size(), first, last, better.data() + before,
+                                   row_end.data() + first});
+    for (std::size_t k = first; k < last; ++k)
+      row_end[k] += static_cast<std::uint32_t>(before);
+    better.resize(row_end[last - 1]);
   }
 };
 
-SoaBuffer
-basesOf(const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& rivals)
+enum class State : std::uint8_t { Open, Taken, Left };
+
+/** Decides the gaps of which all better ones within the clearance are decided, again and again; each time at least the best. */
+std::vector<State>
+decide(const BetterLists& lists, std::size_t count)
 {
-  SoaBuffer bases(rivals.size());
-  for (std::size_t r = 0; r < rivals.size(); ++r) {
-    bases.x[r] = gaps[rivals[r]].base[0];
-    bases.y[r] = gaps[rivals[r]].base[1];
-    bases.z[r] = gaps[rivals[r]].base[2];
+  std::vector<State> states(count, State::Open);
+  std::vector<std::uint32_t> open(count);
+  for (std::size_t k = 0; k < count; ++k)
+    open[k] = static_cast<std::uint32_t>(k);
+  while (!open.empty()) {
+    std::size_t still_open = 0;
+    for (const std::uint32_t k : open) {
+      const std::vector<std::uint32_t>& members = lists.of_task[k / kGapsPerTask];
+      State state = State::Taken;
+      for (std::uint32_t m = k % kGapsPerTask == 0 ? 0 : lists.row_end[k - 1]; m < lists.row_end[k] && state != State::Left; ++m) {
+        const State better = states[members[m]];
+        if (better != State::Left)
+          state = better == State::Taken ? State::Left : State::Open;
+      }
+      states[k] = state;
+      open[still_open] = k;
+      still_open += state == State::Open;
+    }
+    open.resize(still_open);
   }
-  return bases;
+  return states;
 }
 
 } // namespace
 
 std::vector<std::uint32_t>
-bestWithinClearance(const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& rivals, std::size_t threads)
+fillableTogether(const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& rivals, std::size_t threads)
 {
-  const SoaBuffer bases = basesOf(gaps, rivals);
-  const PointIndex index(bases.view(), static_cast<unsigned>(threads));
-  const SortedGaps sorted(index, gaps, rivals);
-  std::vector<std::uint8_t> wins(rivals.size());
-  parallelBlocks(rivals.size(), kGapsPerTask, threads, [&](std::size_t begin, std::size_t end) {
-    const auto clearances = sorted.clearance_sq.begin();
-    const float reach = std::sqrt(*std::max_element(clearances + static_cast<std::ptrdiff_t>(begin), clearances + static_cast<std::ptrdiff_t>(end)));
-    const auto position = [&](std::size_t k) {
-      return std::array<float, 3>{sorted.bases.x[k], sorted.bases.y[k], sorted.bases.z[k]};
-    };
-    std::vector<Run> candidates;
-    forPatches(begin, end, 2.0f * reach, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
-      candidates.clear();
-      index.tree().collectRuns(box, reach, candidates);
-      for (std::size_t k = first; k < last; ++k)
-        wins[k] = sorted.isBest(k, candidates);
-    });
-  });
-  std::vector<std::uint32_t> best;
-  for (std::size_t k = 0; k < wins.size(); ++k)
-    if (wins[k])
-      best.push_back(sorted.number[k]);
-  return best;
+  const Rivals all(gaps, rivals, threads);
+  const std::vector<State> states = decide(BetterLists(all, threads), rivals.size());
+  std::vector<std::uint32_t> taken;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (states[k] == State::Taken)
+      taken.push_back(rivals[k]);
+  return taken;
 }
 
 } // namespace pcl_gpf

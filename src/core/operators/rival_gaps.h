@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "gap_search.h"
+#include "../kernels/gaps.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +9,13 @@
 
 namespace pcl_gpf {
 
-/** Of the gaps with the numbers `rivals` those that have no better one, of greater priority or equal priority and lower number, whose
- * base is nearer than their own clearance; so that all of them can be filled at once. In spatial order. */
+/** Those gaps that are filled when they are taken one after another by priority, and a gap is left out when the base of one that was
+ * taken lies within its clearance; equal priorities in the order given.
+ *
+ * The outcome of that rule is one, so it is found for all gaps at once.
+ * \param[in] rivals places in `gaps`, ascending, in which neighbours follow each other
+ * \return the places of those to fill, ascending */
 std::vector<std::uint32_t>
-bestWithinClearance(const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& rivals, std::size_t threads);
+fillableTogether(const std::vector<Gap>& gaps, const std::vector<std::uint32_t>& rivals, std::size_t threads);
 
 } // namespace pcl_gpf

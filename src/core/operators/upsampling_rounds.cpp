@@ -7,84 +7,69 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <limits>
 
 namespace pcl_gpf {
 
 namespace {
 
-constexpr std::size_t kPointsPerTask = 256;
+constexpr std::size_t kPointsPerTask = 1024;
 constexpr std::size_t kCopiesPerTask = 65536;
 /** Clearances below this, in the frame whose box diagonal is 1, are rounding. */
 constexpr float kLeastClearance = 1e-6f;
 /** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
 constexpr float kReachInClearances = 3.6f;
-/** Share of the gaps, those of least priority, that take no part in a round: so the widest are filled first. */
-constexpr double kShareLeft = 0.5;
+/** Share of the points whose gaps, those of least priority, take no part in a round: so the widest are filled first. A round fills about
+ * 0.4 gaps a point, so it is the last when not more than kLastRound a point are to be filled; of that one the best are taken. */
+constexpr double kShareLeft = 0.15, kShareLeftOfLast = 0.1, kLastRound = 0.5;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
-SoaBuffer
-inOrder(VectorsView from, const std::vector<std::uint32_t>& order, std::size_t threads)
+template <class Arrays>
+void
+setVector(Arrays& to, std::size_t k, const std::array<float, 3>& value)
 {
-  SoaBuffer to(order.size());
-  parallelBlocks(order.size(), kCopiesPerTask, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      to.x[k] = from.x[order[k]];
-      to.y[k] = from.y[order[k]];
-      to.z[k] = from.z[order[k]];
-    }
-  });
-  return to;
+  to.x[k] = value[0];
+  to.y[k] = value[1];
+  to.z[k] = value[2];
 }
 
 } // namespace
 
-UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, PointsView points, SoaBuffer unit_normals)
+UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex& points, NormalsView unit_normals)
 : plan_(plan)
-, input_size_(points.size)
-, input_(std::make_unique<PointIndex>(points, static_cast<unsigned>(plan.threads)))
-, input_normals_(inOrder(unit_normals.view(), input_->order(), plan.threads))
-, projection_(*input_, static_cast<const SoaBuffer&>(input_normals_).view(), plan.radius, plan.angle, plan.sign_invariant)
+, input_size_(points.size())
+, projection_(points, unit_normals, plan.radius, plan.angle, plan.sign_invariant)
 , search_(plan.edge_sensitivity, plan.sign_invariant)
-, x_(points.x, points.x + points.size)
-, y_(points.y, points.y + points.size)
-, z_(points.z, points.z + points.size)
-, nx_(unit_normals.x.begin(), unit_normals.x.end())
-, ny_(unit_normals.y.begin(), unit_normals.y.end())
-, nz_(unit_normals.z.begin(), unit_normals.z.end())
-, gaps_(points.size)
+, cloud_(points, unit_normals, plan.threads)
 , reach_(static_cast<float>(plan.radius))
 {
   const float least = std::max(kLeastClearance, static_cast<float>(plan.least_clearance));
   least_clearance_sq_ = least * least;
-  for (Gap& gap : gaps_)
+  for (Gap& gap : cloud_.gaps())
     gap.clearance_sq = kUnknown; // sought as far as allowed
-}
-
-void
-UpsamplingRounds::indexPoints()
-{
-  index_ = std::make_unique<PointIndex>(positions(), static_cast<unsigned>(plan_.threads));
-  sorted_normals_ = inOrder({nx_.data(), ny_.data(), nz_.data(), size()}, index_->order(), plan_.threads);
 }
 
 void
 UpsamplingRounds::searchGaps()
 {
-  const std::vector<std::uint32_t>& order = index_->order();
-  const NormalsView normals = static_cast<const SoaBuffer&>(sorted_normals_).view();
   const auto first_new = static_cast<std::uint32_t>(searched_);
-  parallelBlocks(size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
+  Gap* gaps = cloud_.gaps().data();
+  parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     GapSearch::Scratch scratch;
-    std::vector<Gap> gaps(end - begin);
-    for (std::size_t k = begin; k < end; ++k)
-      gaps[k - begin] = gaps_[order[k]];
-    search_.widest(*index_, normals, begin, end, first_new, reach_, static_cast<float>(plan_.radius), scratch, gaps.data());
-    for (std::size_t k = begin; k < end; ++k)
-      gaps_[order[k]] = gaps[k - begin];
+    search_.widest(cloud_, begin, end, first_new, reach_, static_cast<float>(plan_.radius), scratch, gaps + kGapsOfPoint * begin);
   });
-  searched_ = size();
+  searched_ = cloud_.size();
+  least_filled_ = kUnknown;
+}
+
+float
+UpsamplingRounds::widestClearance() const
+{
+  float widest_sq = 0.0f;
+  for (const Gap& gap : cloud_.gaps())
+    if (gap.priority > 0.0f && gap.priority < least_filled_)
+      widest_sq = std::max(widest_sq, gap.clearance_sq);
+  return std::sqrt(widest_sq);
 }
 
 bool
@@ -97,13 +82,15 @@ float
 UpsamplingRounds::leastPriority() const
 {
   std::vector<float> priorities;
-  priorities.reserve(gaps_.size());
-  for (const Gap& gap : gaps_)
-    if (counts(gap))
-      priorities.push_back(gap.priority);
+  priorities.reserve(cloud_.size());
+  for (std::size_t k = 0; k < cloud_.gaps().size(); k += kGapsOfPoint) // the best of each point
+    if (counts(cloud_.gaps()[k]))
+      priorities.push_back(cloud_.gaps()[k].priority);
   if (priorities.empty())
     return kUnknown;
-  const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(priorities.size()) * kShareLeft);
+  const bool last = static_cast<double>(plan_.target - size()) <= kLastRound * static_cast<double>(cloud_.size());
+  const double share = last ? kShareLeftOfLast : kShareLeft;
+  const auto middle = priorities.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(priorities.size()) * share);
   std::nth_element(priorities.begin(), middle, priorities.end());
   return *middle;
 }
@@ -111,58 +98,71 @@ UpsamplingRounds::leastPriority() const
 std::vector<std::uint32_t>
 UpsamplingRounds::chooseBases(float least) const
 {
+  const std::vector<Gap>& gaps = cloud_.gaps();
   std::vector<std::uint32_t> rivals;
-  for (std::size_t i = 0; i < gaps_.size(); ++i)
-    if (gaps_[i].priority >= least && counts(gaps_[i]))
-      rivals.push_back(static_cast<std::uint32_t>(i));
-  return bestWithinClearance(gaps_, rivals, plan_.threads);
+  for (std::size_t k = 0; k < gaps.size(); ++k)
+    if (gaps[k].priority >= least && counts(gaps[k]))
+      rivals.push_back(static_cast<std::uint32_t>(k));
+  return fillableTogether(gaps, rivals, plan_.threads);
 }
 
 void
-UpsamplingRounds::insert(const std::vector<std::uint32_t>& chosen)
+UpsamplingRounds::fill(const std::vector<std::uint32_t>& chosen)
 {
-  const std::size_t first = size(), count = chosen.size();
-  gaps_.resize(first + count);
-  for (std::size_t c = 0; c < count; ++c)
-    gaps_[first + c].clearance_sq = gaps_[chosen[c]].clearance_sq; // what was free around the new point
-  for (std::vector<float>* values : {&x_, &y_, &z_, &nx_, &ny_, &nz_})
-    values->resize(first + count);
+  const std::size_t count = chosen.size(), before = parents_.size();
+  ProjectionQueries queries(count);
   for (std::vector<std::uint32_t>* values : {&parents_, &first_base_, &second_base_})
-    values->resize(first - input_size_ + count);
-  parallelBlocks(count, kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
-    BilateralProjection::Scratch scratch;
-    std::vector<BilateralProjection::Query> queries(end - begin);
-    std::vector<ProjectedPoint> projected(end - begin);
+    values->resize(before + count);
+  parallelBlocks(count, kCopiesPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      const std::size_t v = chosen[c], t = gaps_[v].partner;
-      queries[c - begin] = {gaps_[v].base, {nx_[v], ny_[v], nz_[v]}, {nx_[t], ny_[t], nz_[t]},
-                            std::sqrt((x_[v] - x_[t]) * (x_[v] - x_[t]) + (y_[v] - y_[t]) * (y_[v] - y_[t]) + (z_[v] - z_[t]) * (z_[v] - z_[t]))};
-    }
-    projection_.project(queries, scratch, projected.data());
-    for (std::size_t c = begin; c < end; ++c) {
-      const std::size_t v = chosen[c], t = gaps_[v].partner, to = first + c, inserted = to - input_size_;
-      const ProjectedPoint& p = projected[c - begin];
-      x_[to] = p.position[0];
-      y_[to] = p.position[1];
-      z_[to] = p.position[2];
-      nx_[to] = p.normal[0];
-      ny_[to] = p.normal[1];
-      nz_[to] = p.normal[2];
-      first_base_[inserted] = static_cast<std::uint32_t>(v);
-      second_base_[inserted] = static_cast<std::uint32_t>(t);
-      parents_[inserted] = p.found          ? input_->order()[p.nearest]
-                           : v < input_size_ ? static_cast<std::uint32_t>(v)
-                                             : parents_[v - input_size_];
+      const Gap& gap = cloud_.gaps()[chosen[c]];
+      const std::size_t place = chosen[c] / kGapsOfPoint;
+      const std::array<float, 3> v = cloud_.position(place);
+      const float dx = gap.base[0] - v[0], dy = gap.base[1] - v[1], dz = gap.base[2] - v[2];
+      setVector(queries.positions, c, gap.base);
+      setVector(queries.directions[0], c, cloud_.normal(place));
+      setVector(queries.directions[1], c, cloud_.normal(cloud_.placeOf(gap.partner)));
+      queries.longest_move[c] = 2.0f * std::sqrt(dx * dx + dy * dy + dz * dz);
+      first_base_[before + c] = cloud_.numbers()[place];
+      second_base_[before + c] = gap.partner;
     }
   });
+  const ProjectedPoints projected = projection_.project(queries, plan_.threads);
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::uint32_t v = first_base_[before + c];
+    parents_[before + c] = projected.nearest[c] != ProjectedPoints::kNone ? projected.nearest[c]
+                           : v < input_size_                              ? v
+                                                                          : parents_[v - input_size_];
+  }
+  const auto append = [](std::vector<float>& to, const AlignedArray<float>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(x_, projected.positions.x);
+  append(y_, projected.positions.y);
+  append(z_, projected.positions.z);
+  append(nx_, projected.normals.x);
+  append(ny_, projected.normals.y);
+  append(nz_, projected.normals.z);
+  filled_ = chosen;
+}
+
+void
+UpsamplingRounds::joinInserted()
+{
+  if (filled_.empty())
+    return;
+  const std::size_t first = parents_.size() - filled_.size();
+  cloud_.insert(filled_, {x_.data() + first, y_.data() + first, z_.data() + first}, {nx_.data() + first, ny_.data() + first, nz_.data() + first});
+  filled_.clear();
 }
 
 void
 UpsamplingRounds::keepBest(std::vector<std::uint32_t>& chosen, std::size_t count) const
 {
   std::vector<std::uint32_t> ranked = chosen;
-  const auto better = [this](std::uint32_t a, std::uint32_t b) {
-    return gaps_[a].priority > gaps_[b].priority || (gaps_[a].priority == gaps_[b].priority && a < b);
+  const std::vector<Gap>& gaps = cloud_.gaps();
+  const auto better = [&gaps](std::uint32_t a, std::uint32_t b) {
+    return gaps[a].priority > gaps[b].priority || (gaps[a].priority == gaps[b].priority && a < b);
   };
   std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count), ranked.end(), better);
   const std::uint32_t first_left = ranked[count];
@@ -172,12 +172,10 @@ UpsamplingRounds::keepBest(std::vector<std::uint32_t>& chosen, std::size_t count
 bool
 UpsamplingRounds::step()
 {
-  if (size() >= plan_.target && searched_ > 0)
-    return false;
-  indexPoints();
-  searchGaps(); // even where nothing is to be inserted: result() tells the widest gap
   if (size() >= plan_.target)
     return false;
+  joinInserted();
+  searchGaps();
   const float least = leastPriority();
   std::vector<std::uint32_t> chosen = chooseBases(least);
   if (chosen.empty())
@@ -187,7 +185,9 @@ UpsamplingRounds::step()
   if (rounds_++ == 0)
     first_priority_ = static_cast<double>(least);
   last_priority_ = least;
-  insert(chosen);
+  for (const std::uint32_t gap : chosen)
+    least_filled_ = std::min(least_filled_, cloud_.gaps()[gap].priority);
+  fill(chosen);
   reach_ = std::min(reach_, kReachInClearances * std::sqrt(least));
   return true;
 }
@@ -195,7 +195,7 @@ UpsamplingRounds::step()
 double
 UpsamplingRounds::fractionDone() const
 {
-  const double by_count = static_cast<double>(size() - input_size_) / std::max(1.0, static_cast<double>(plan_.target - input_size_));
+  const double by_count = static_cast<double>(parents_.size()) / std::max(1.0, static_cast<double>(plan_.target - input_size_));
   if (plan_.least_clearance <= 0.0 || rounds_ == 0)
     return plan_.least_clearance > 0.0 ? 0.0 : by_count;
   const double goal = std::log(first_priority_ / static_cast<double>(least_clearance_sq_));
@@ -204,15 +204,13 @@ UpsamplingRounds::fractionDone() const
 }
 
 EdgeAwareUpsamplingResult
-UpsamplingRounds::result() const
+UpsamplingRounds::result()
 {
   EdgeAwareUpsamplingResult result;
-  const std::size_t count = size() - input_size_;
+  const std::size_t count = parents_.size();
   result.points = SoaBuffer(count);
   result.normals = SoaBuffer(count);
-  const auto copy = [&](const std::vector<float>& from, AlignedArray<float>& to) {
-    std::copy(from.begin() + static_cast<std::ptrdiff_t>(input_size_), from.end(), to.begin());
-  };
+  const auto copy = [](const std::vector<float>& from, AlignedArray<float>& to) { std::copy(from.begin(), from.end(), to.begin()); };
   copy(x_, result.points.x);
   copy(y_, result.points.y);
   copy(z_, result.points.z);
@@ -223,10 +221,9 @@ UpsamplingRounds::result() const
   result.first_base = first_base_;
   result.second_base = second_base_;
   result.radius = plan_.radius;
-  float widest = 0.0f;
-  for (const Gap& gap : gaps_)
-      widest = std::max(widest, gap.clearance_sq);
-  result.widest_gap = std::sqrt(static_cast<double>(widest));
+  if (searched_ == 0)
+    searchGaps(); // nothing was to be inserted
+  result.widest_gap = static_cast<double>(widestClearance());
   result.rounds = rounds_;
   result.target_reached = plan_.least_clearance > 0.0 || size() >= plan_.target;
   return result;

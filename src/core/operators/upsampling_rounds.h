@@ -3,13 +3,13 @@
 
 #include "bilateral_projection.h"
 #include "gap_search.h"
+#include "growing_cloud.h"
 
 #include <pcl_gpf/core/operators/edge_aware_upsampling.h>
 #include <pcl_gpf/core/point_index.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace pcl_gpf {
@@ -27,13 +27,14 @@ struct UpsamplingPlan {
 
 /** Edge-aware insertion in rounds.
  *
- * Every point keeps its widest gap. A round takes the upper half of all gaps by priority, inserts those that no better one
- * comes nearer than their own clearance, and searches again only where it inserted. A gap that is not searched again can only have
+ * Every point keeps its widest gap. A round takes the upper half of all gaps by priority, fills those that can be filled
+ * together, and searches again only where it inserted. A gap that is not searched again can only have
  * become smaller, so its old priority is an upper bound, and nothing of the upper half is missed.
  */
 class UpsamplingRounds {
 public:
-  UpsamplingRounds(const UpsamplingPlan& plan, PointsView points, SoaBuffer unit_normals);
+  /** \param[in] unit_normals in sorted order. Points and parents have their places in `points` as numbers. */
+  UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex& points, NormalsView unit_normals);
 
   /** \return false when the target is reached or nothing is left to fill */
   bool
@@ -41,16 +42,15 @@ public:
   double
   fractionDone() const;
   EdgeAwareUpsamplingResult
-  result() const;
+  result();
 
 private:
-  std::size_t size() const { return x_.size(); }
-  VectorsView positions() const { return {x_.data(), y_.data(), z_.data(), size()}; }
-
-  void
-  indexPoints();
+  std::size_t size() const { return input_size_ + parents_.size(); }
   void
   searchGaps();
+  /** Of the gaps that are left: the last round has filled, or made smaller, all of a priority from the least that it filled. */
+  float
+  widestClearance() const;
   bool
   counts(const Gap& gap) const;
   float
@@ -61,26 +61,27 @@ private:
   void
   keepBest(std::vector<std::uint32_t>& chosen, std::size_t count) const;
   void
-  insert(const std::vector<std::uint32_t>& chosen);
+  fill(const std::vector<std::uint32_t>& chosen);
+  /** Puts the points of the last round between the others; only needed when another round follows. */
+  void
+  joinInserted();
 
   UpsamplingPlan plan_;
   std::size_t input_size_;
-  std::unique_ptr<PointIndex> input_;
-  SoaBuffer input_normals_; ///< in the order of input_
   BilateralProjection projection_;
   GapSearch search_;
+  GrowingCloud cloud_;
 
-  std::vector<float> x_, y_, z_, nx_, ny_, nz_; ///< input, then inserted points
+  std::vector<float> x_, y_, z_, nx_, ny_, nz_;                   ///< of inserted points
   std::vector<std::uint32_t> parents_, first_base_, second_base_; ///< of inserted points
+  std::vector<std::uint32_t> filled_; ///< gaps that the last round filled
 
-  std::unique_ptr<PointIndex> index_; ///< over all points
-  SoaBuffer sorted_normals_;
-  std::vector<Gap> gaps_;             ///< of every point, by its number
   std::size_t searched_ = 0; ///< points that have been searched
   float reach_ = 0;          ///< within which partners are sought where gaps are not wide; shrinks with them
   float least_clearance_sq_ = 0;
   double first_priority_ = 0;
   float last_priority_ = 0;
+  float least_filled_ = 0; ///< priority, of the gaps filled since the last search
   std::size_t rounds_ = 0;
 };
 

@@ -17,7 +17,8 @@
  * \brief Edge-aware upsampling beside CGAL's: the same filtered unit cube with the same oriented normals, in turn, one thread each.
  *
  * Lengths are in 1/10000 of the box diagonal. error: mean distance of all points to the cube's surface. edges: mean distance from
- * places on its edges to the nearest point.
+ * places on its edges to the nearest point. holes: 95th percentile of the distance from places on its faces to the nearest point.
+ * uneven: deviation of the distances of all points to their nearest neighbours, as a share of their mean.
  */
 namespace {
 
@@ -26,7 +27,8 @@ using namespace pcl_gpf::benchmark_peers;
 using benchmark_statistics::median;
 
 constexpr const char* kUsage = "usage: upsampling [--size N] [--noise PERCENT] [--factors 2,8] [--exponents 0,5,10] [--repeat N]\n"
-                               "                  [--most-seconds S: no more runs of a method after one that took longer]\n";
+                               "                  [--most-seconds S: no more runs of a method after one that took longer]\n"
+                               "                  [--peer 1: 0 = without CGAL]\n";
 
 struct Choice {
   std::size_t size = 33490;
@@ -34,6 +36,7 @@ struct Choice {
   std::vector<double> factors{2, 8}, exponents{0, 5, 10};
   unsigned repeat = 3;
   double most_seconds = 60;
+  bool peer = true;
 };
 
 Choice
@@ -63,6 +66,8 @@ parse(int argc, char** argv)
       choice.repeat = number<unsigned>(argv[i + 1]);
     else if (name == "--most-seconds")
       choice.most_seconds = number<double>(argv[i + 1]);
+    else if (name == "--peer")
+      choice.peer = number<unsigned>(argv[i + 1]) != 0;
     else
       throw std::invalid_argument("unknown option " + name);
   }
@@ -124,7 +129,7 @@ ours(const PeerCloud& cloud, double factor, double exponent)
 }
 
 struct Quality {
-  double error = 0, edges = 0;
+  double error = 0, edges = 0, holes = 0, uneven = 0;
 };
 
 double
@@ -155,17 +160,43 @@ judge(const PeerCloud& input, const PeerCloud& made)
   }
   const PointIndex index(static_cast<const SoaBuffer&>(points).view());
   std::vector<float> nearest_sq;
+  const auto nearest = [&](const std::array<float, 3>& place, std::size_t k) {
+    index.tree().nearest(index.sorted(), place, k, nearest_sq);
+    return std::sqrt(static_cast<double>(nearest_sq.back()));
+  };
   constexpr int kPlaces = 500;
   for (int edge = 0; edge < 12; ++edge)
     for (int k = 0; k < kPlaces; ++k) {
       const float along = (static_cast<float>(k) + 0.5f) / kPlaces, a = edge & 1 ? 1.0f : 0.0f, b = edge & 2 ? 1.0f : 0.0f;
-      const std::array<float, 3> place = edge < 4 ? std::array<float, 3>{along, a, b}
-                                         : edge < 8 ? std::array<float, 3>{a, along, b} : std::array<float, 3>{a, b, along};
-      index.tree().nearest(index.sorted(), place, 1, nearest_sq);
-      quality.edges += std::sqrt(static_cast<double>(nearest_sq[0])) / (12 * kPlaces);
+      quality.edges += nearest(edge < 4 ? std::array<float, 3>{along, a, b}
+                               : edge < 8 ? std::array<float, 3>{a, along, b} : std::array<float, 3>{a, b, along}, 1) / (12 * kPlaces);
     }
-  const double unit = 1e4 / std::sqrt(3.0);
-  return {quality.error * unit, quality.edges * unit};
+  constexpr int kRows = 150;
+  std::vector<double> holes;
+  for (int face = 0; face < 6; ++face)
+    for (int k = 0; k < kRows * kRows; ++k) {
+      const float u = (static_cast<float>(k % kRows) + 0.5f) / kRows, v = (static_cast<float>(k / kRows) + 0.5f) / kRows;
+      const float w = face & 1 ? 1.0f : 0.0f;
+      holes.push_back(nearest(face < 2 ? std::array<float, 3>{u, v, w}
+                              : face < 4 ? std::array<float, 3>{u, w, v} : std::array<float, 3>{w, u, v}, 1));
+    }
+  std::sort(holes.begin(), holes.end());
+  double sum = 0.0, sum_sq = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d = nearest({points.x[i], points.y[i], points.z[i]}, 2);
+    sum += d;
+    sum_sq += d * d;
+  }
+  const double unit = 1e4 / std::sqrt(3.0), mean = sum / static_cast<double>(count);
+  return {quality.error * unit, quality.edges * unit, holes[holes.size() * 95 / 100] * unit,
+          std::sqrt(std::max(0.0, sum_sq / static_cast<double>(count) - mean * mean)) / mean};
+}
+
+void
+printRow(double factor, double exponent, const char* method, std::size_t inserted, std::size_t count, double seconds, const Quality& q)
+{
+  std::printf("x%-4g %-4g %-6s %9zu %9.3f %9.2f %9.2f %9.2f %9.2f %9.3f\n", factor, exponent, method, count, seconds,
+              seconds / static_cast<double>(std::max<std::size_t>(1, inserted)) * 1e6, q.error, q.edges, q.holes, q.uneven);
 }
 
 void
@@ -175,21 +206,18 @@ compare(const Choice& choice, const PeerCloud& cloud, double factor, double expo
   std::vector<double> seconds[2];
   PeerCloud made[2];
   for (unsigned round = 0; round < choice.repeat; ++round)
-    for (const int method : {0, 1}) {
+    for (int method = 0; method < (choice.peer ? 2 : 1); ++method) {
       if (!seconds[method].empty() && seconds[method].back() > choice.most_seconds)
         continue;
       const benchmark_timing::Stopwatch watch;
       made[method] = method == 0 ? ours(cloud, factor, exponent) : cgalUpsample(cloud, exponent / 10.0, target);
       seconds[method].push_back(watch.elapsed().processor);
     }
-  for (const int method : {0, 1}) {
-    const Quality q = judge(cloud, made[method]);
-    const double s = median(seconds[method]);
-    std::printf("x%-4g %-4g %-6s %9zu %9.3f %9.2f %9.2f %9.2f\n", factor, exponent, method == 0 ? "ours" : "CGAL",
-                cloud.size() + made[method].size(), s, s / static_cast<double>(std::max<std::size_t>(1, made[method].size())) * 1e6,
-                q.error, q.edges);
-  }
-  std::printf("           CGAL / ours: %.1f\n", median(seconds[1]) / median(seconds[0]));
+  for (int method = 0; method < (choice.peer ? 2 : 1); ++method)
+    printRow(factor, exponent, method == 0 ? "ours" : "CGAL", made[method].size(), cloud.size() + made[method].size(),
+             median(seconds[method]), judge(cloud, made[method]));
+  if (choice.peer)
+    std::printf("           CGAL / ours: %.1f\n", median(seconds[1]) / median(seconds[0]));
   std::fflush(stdout);
 }
 
@@ -201,9 +229,10 @@ main(int argc, char** argv)
   try {
     const Choice choice = parse(argc, argv);
     const PeerCloud cloud = filteredCube(choice);
-    const Quality q = judge(cloud, PeerCloud());
-    std::printf("cube of %zu points, %g %% noise, filtered: error %.2f, edges %.2f\n", choice.size, choice.noise, q.error, q.edges);
-    std::printf("%-5s %-4s %-6s %9s %9s %9s %9s %9s\n", "", "rho", "", "points", "CPU s", "us/new", "error", "edges");
+    std::printf("cube, %g %% noise, filtered\n", choice.noise);
+    std::printf("%-5s %-4s %-6s %9s %9s %9s %9s %9s %9s %9s\n", "", "rho", "", "points", "CPU s", "us/new", "error", "edges", "holes",
+                "uneven");
+    printRow(1, 0, "before", 0, cloud.size(), 0.0, judge(cloud, PeerCloud()));
     for (const double factor : choice.factors)
       for (const double exponent : choice.exponents)
         compare(choice, cloud, factor, exponent);

@@ -4,6 +4,7 @@
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/edge_aware_upsampling.h>
+#include <pcl_gpf/core/simd.h>
 
 #include <gtest/gtest.h>
 
@@ -210,6 +211,32 @@ TEST(EdgeAwareUpsampling, EdgeIsSharpenedAndNormalsAreOfOneSideEach)
   EXPECT_GT(on_edge, 30u) << "points on the edge itself";
 }
 
+TEST(EdgeAwareUpsampling, PointsBesideAnEdgeOfAnyAngleLieOnItsFaces)
+{
+  for (const double degrees : {75.0, 110.0, 125.0}) {
+    // One face along x; the other, in place of the upright square, goes down at this angle inside the solid.
+    const double angle = degrees * std::acos(-1.0) / 180.0;
+    Shape bent = edge(3000, 0, 9);
+    for (std::size_t i = 0; i < bent.size(); ++i)
+      if (bent.normals[i][0] < -0.5) {
+        bent.points[i] = {-std::cos(angle) * bent.points[i][2], bent.points[i][1], std::sin(angle) * bent.points[i][2]};
+        bent.normals[i] = {-std::sin(angle), 0, -std::cos(angle)};
+      }
+    for (const bool sign_invariant : {true, false}) {
+      EdgeAwareUpsamplingParameters p = times(2, 5.0);
+      p.sign_invariant = sign_invariant;
+      const SoaBuffer points = toBuffer(bent.points), normals = toBuffer(bent.normals);
+      const EdgeAwareUpsamplingResult result = upsampleEdgeAware(p, points.view(), normals.view());
+      for (const Vector3& q : toVectors(result.points)) {
+        const double along = q[0] * std::cos(angle) - q[2] * std::sin(angle);
+        const double from_first = std::hypot(q[2], std::min(q[0], 0.0));
+        const double from_second = std::hypot(q[0] * std::sin(angle) + q[2] * std::cos(angle), std::min(along, 0.0));
+        ASSERT_LT(std::min(from_first, from_second), 3e-3) << degrees << " degrees: the input's spacing is 0.026";
+      }
+    }
+  }
+}
+
 TEST(EdgeAwareUpsampling, EdgeSensitivityMovesPointsToTheEdge)
 {
   const LocalCloud cloud = toLocalCloud(edge(3000, 0, 9));
@@ -255,6 +282,46 @@ TEST(EdgeAwareUpsampling, SameBitsForAnyNumberOfThreads)
     EXPECT_TRUE(sameBits(one.points, many.points));
     EXPECT_TRUE(sameBits(one.normals, many.normals));
     EXPECT_EQ(one.parents, many.parents);
+  }
+}
+
+TEST(EdgeAwareUpsampling, SameBitsForEveryInstructionSet)
+{
+  const LocalCloud cloud = toLocalCloud(cube(1500, 0.003, 6));
+  const std::string before = activeSimdTarget();
+  for (const bool sign_invariant : {true, false}) {
+    EdgeAwareUpsamplingParameters p = times(3, 2.0);
+    p.sign_invariant = sign_invariant;
+    p.radius = 5.0 * spacingOf(cloud.v); // more neighbours than are looked at
+    setSimdTarget("scalar");
+    const EdgeAwareUpsamplingResult scalar = upsample(cloud, p);
+    for (const std::string& target : availableSimdTargets()) {
+      setSimdTarget(target);
+      const EdgeAwareUpsamplingResult wide = upsample(cloud, p);
+      EXPECT_TRUE(sameBits(scalar.points, wide.points)) << target;
+      EXPECT_TRUE(sameBits(scalar.normals, wide.normals)) << target;
+      EXPECT_EQ(scalar.parents, wide.parents) << target;
+    }
+  }
+  setSimdTarget(before);
+}
+
+TEST(EdgeAwareUpsampling, AnIndexOfTheCallerGivesTheSame)
+{
+  const LocalCloud cloud = toLocalCloud(cube(1000, 0.003, 6));
+  const EdgeAwareUpsamplingParameters p = times(2, 5.0);
+  const EdgeAwareUpsamplingResult plain = upsample(cloud, p);
+  const PointIndex index(cloud.points.view());
+  std::vector<Vector3> normals;
+  for (const std::uint32_t i : index.order())
+    normals.push_back(cloud.b[i]);
+  const EdgeAwareUpsamplingResult sorted = upsampleEdgeAware(p, index, toBuffer(normals).view(), estimateSpacing(index));
+  EXPECT_TRUE(sameBits(plain.points, sorted.points));
+  ASSERT_EQ(plain.parents.size(), sorted.parents.size());
+  for (std::size_t k = 0; k < plain.parents.size(); ++k) {
+    EXPECT_EQ(plain.parents[k], index.order()[sorted.parents[k]]);
+    const std::uint32_t base = sorted.first_base[k];
+    EXPECT_EQ(plain.first_base[k], base < cloud.size() ? index.order()[base] : base);
   }
 }
 

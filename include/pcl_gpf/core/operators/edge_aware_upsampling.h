@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/core/export.h>
 #include <pcl_gpf/core/iteration.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/soa_buffer.h>
 #include <pcl_gpf/core/views.h>
 
@@ -65,7 +66,7 @@ struct EdgeAwareUpsamplingResult {
   std::vector<std::uint32_t> first_base, second_base;
 
   double radius = 0;        ///< R used, in the unit of the points
-  double widest_gap = 0;    ///< of those left: distance of a base to the nearest point, along the surface
+  double widest_gap = 0;    ///< of those that the last round left: distance of a base to the nearest point, along the surface
   std::size_t rounds = 0;
   bool target_reached = true; ///< false: no gap was left to fill within R
   double seconds = 0;
@@ -75,10 +76,11 @@ struct EdgeAwareUpsamplingResult {
  *
  * For neighbours v, t within R the base is b = (v + t) / 2, its clearance C(b) the least squared distance of b to the line through
  * a neighbour s along n_s, its priority (2 - n_v.n_t)^rho C(b). A base is moved along a normal onto the weighted planes of the
- * input points around it, with weights exp(-4 r^2 / R^2) exp(-((1 - n.n_q) / (1 - cos angle))^2), n that of v or of t, whichever
- * moves it less; one about as far from both planes moves onto the edge where they meet. In place of the sequential loop of EAR, each round inserts all bases that have the highest priority within
- * their own clearance; results are the same bits for any number of threads.
- * Cost: O(points in all), about 10 us for each new one; memory about 150 bytes each.
+ * input points around it, with weights exp(-4 r^2 / R^2) exp(-((1 - n.n_q) / (1 - cos angle))^2), n that of v or of t: in a face
+ * whichever moves it less, beside an edge the one that brings it nearer to the edge; one about as far from both planes moves onto the
+ * edge where they meet. In place of the sequential loop of EAR, each round fills all gaps that filling one after another by priority
+ * would fill without searching again; results are the same bits for any number of threads.
+ * Cost: O(points in all), about 3 us for each new one; memory about 150 bytes each.
  *
  * \param[in] points N >= 3 finite positions that do not lie on one line, normalised frame
  * \param[in] normals N vectors of any length > 0
@@ -88,6 +90,15 @@ PCL_GPF_CORE_EXPORT EdgeAwareUpsamplingResult
 upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters,
                   PointsView points,
                   NormalsView normals,
+                  const ProgressCallback& progress = {});
+
+/** \brief The same for points that have an index already; points and normals are in sorted order, and so are the numbers of the result.
+ * \param[in] spacing of the points, as estimateSpacing() gives it */
+PCL_GPF_CORE_EXPORT EdgeAwareUpsamplingResult
+upsampleEdgeAware(const EdgeAwareUpsamplingParameters& parameters,
+                  const PointIndex& points,
+                  NormalsView normals,
+                  double spacing,
                   const ProgressCallback& progress = {});
 
 } // namespace pcl_gpf
