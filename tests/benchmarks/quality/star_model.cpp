@@ -10,7 +10,7 @@ std::shared_ptr<const Surface>
 starSurface()
 {
   constexpr std::uint32_t kCorners = 10; // five points and the five notches between them
-  constexpr double kPi = 3.14159265358979323846, kPoint = 1, kNotch = 0.5, kWall = 0.12, kApex = 0.4;
+  constexpr double kPi = 3.14159265358979323846, kPoint = 1, kNotch = 0.55, kWall = 0.22, kApex = 0.5;
   TriangleMesh mesh;
   const auto addVertex = [&](double x, double y, double z) { mesh.vertices.insert(mesh.vertices.end(), {x, y, z}); };
   for (const double side : {-1.0, 1.0})
