@@ -67,7 +67,9 @@ bars=$root/build/release/tests/benchmarks/quality/bars
 # Methods as `quality` names them, and what they are called in pictures.
 methods=(rimls-best)
 labels=(RIMLS)
+peers=no
 if grep -qx 'PCL_GPF_BENCHMARK_PEERS:BOOL=ON' build/release/CMakeCache.txt; then
+  peers=yes
   methods+=(wlop-best bilateral-best)
   labels+=(WLOP bilateral)
 else
@@ -88,7 +90,7 @@ measure() {
     --csv "$dir.csv" --cloud-dir "$dir" "$@"
   mv "$dir.csv" "$dir/records.csv"
   for file in "$dir"/*.ply; do
-    mv "$file" "$dir/$(basename "$file" | sed "s/^.*_${noise}_//")"
+    mv "$file" "$dir/${file#*_"${noise}"_}"
   done
 }
 
@@ -129,35 +131,48 @@ mesh() {
   done
 }
 
-# draw PICTURE LABELS FILE... -- OPTION...: a panel for each file.
+# draw PICTURE LABELS FILE... -- OPTION...: a panel for each file, `height` pixels high.
+height=200
 draw() {
   local picture=$out/$1 titles=$2 files=()
   shift 2
   while [[ $# -gt 0 && $1 != -- ]]; do files+=("$1"); shift; done
   shift
-  tool render "${files[@]}" -o "$picture" --labels "$titles" --width 230 --height 200 --zoom 1.15 "$@"
+  tool render "${files[@]}" -o "$picture" --labels "$titles" --width 230 --height "$height" "$@"
 }
 
-# LABEL=VALUE of a column for every method, times a factor: values DIR COLUMN FACTOR.
-values() {
-  local i
-  for i in "${!methods[@]}"; do
-    echo "${labels[i]}=$(awk -v v="$(column "$1" "${methods[i]}" "$2")" -v f="$3" 'BEGIN { print v * f }')"
-  done
-}
-
-# The paper's error, from points of the true surface to the nearest point of the dense cloud: a LABEL=VALUE for each method and for
-# the clean cloud. accuracy DIR mean|square; the mean in 1e-4 of the diagonal, the square in 1e-6 of its square.
+# The paper's error, from points of the true surface to the nearest point of the dense cloud: LABEL=VALUE for each method, and for the
+# clean cloud where there is one. accuracy DIR mean|square; the mean in 1e-4 of the diagonal, the square in 1e-6 of its square.
 accuracy() {
   local dir=$out/$1 what=$2 diagonal i file
+  local all=("${methods[@]}") titles=("${labels[@]}")
+  [[ ! -e $dir/clean-dense.ply ]] || { all+=(clean); titles+=(clean); }
   diagonal=$(tool info "$dir/truth.ply" --json | number diagonal)
-  for i in "${!methods[@]}" clean; do
-    if [[ $i == clean ]]; then file=$dir/clean; else file=$dir/${methods[i]}; fi
+  for i in "${!all[@]}"; do
+    file=$dir/$(safe "${all[i]}")
     tool compare "$dir/truth.ply" "$file-dense.ply" --json >"$file-accuracy.json"
-    awk -v label="$(if [[ $i == clean ]]; then echo clean; else echo "${labels[i]}"; fi)" -v d="$diagonal" -v what="$what" \
+    awk -v label="${titles[i]}" -v d="$diagonal" -v what="$what" \
       -v mean="$(number mean <"$file-accuracy.json")" -v rms="$(number rms <"$file-accuracy.json")" \
       'BEGIN { print label "=" (what == "mean" ? 1e4 * mean / d : 1e6 * rms * rms / d / d) }'
   done
+}
+
+# A column of several methods: sweep DIR COLUMN LABELS METHOD... prints LABEL=VALUE.
+sweep() {
+  local name=$1 wanted=$2 titles i=0
+  IFS=, read -r -a titles <<<"$3"
+  shift 3
+  for method; do
+    echo "${titles[i]}=$(column "$name" "$method" "$wanted")"
+    i=$((i + 1))
+  done
+}
+
+# The clouds of some methods, as arguments: clouds DIR SUFFIX METHOD...
+clouds() {
+  local dir=$out/$1 suffix=$2 method
+  shift 2
+  for method; do echo "$dir/$(safe "$method")$suffix.ply"; done
 }
 
 # A comparison of all methods, with pictures of the points and, if wanted, of the surfaces:
@@ -177,15 +192,138 @@ compare_methods() {
     mesh "$name" "${methods[@]}"
     draw "$name-surfaces.png" "$titles" "${meshes[@]}" -- "$@"
   fi
-  mapfile -t mean < <(values "$name" mean 1)
-  mapfile -t ecov < <(values "$name" ecov 1)
+  mapfile -t mean < <(sweep "$name" mean "$titles" "${methods[@]}")
+  [[ -n $(column "$name" input ecov) ]] || return 0
+  mapfile -t ecov < <(sweep "$name" ecov "$titles" "${methods[@]}")
   "$bars" "$out/$name.svg" "$title" --panel "mean error, 1e-4 diagonal" "input=$(column "$name" input mean)" "${mean[@]}" \
     --panel "edges to nearest point (ecov)" "input=$(column "$name" input ecov)" "${ecov[@]}"
+}
+
+figure4() {
+  local height=110 literal=() fixed=() omega titles=0.02,0.9,0.99,0.9999,0.999999 file bar fixed_bar
+  for omega in ${titles//,/ }; do
+    literal+=("paper:repulsion-weight=0+outlier-weight=$omega")
+    fixed+=("ours:posterior+keep-outliers+h=20+outlier-weight=$omega")
+  done
+  measure figure4 plane uniform 0.5 6000 "$(join input "${literal[@]}" "${fixed[@]}")" --outliers 10
+  mapfile -t file < <(clouds figure4 "" input "${literal[0]}" "${literal[4]}" "${fixed[0]}" "${fixed[4]}")
+  draw figure4.png "input,literal 0.02,literal 0.999999,fixed 0.02,fixed 0.999999" "${file[@]}" \
+    -- --view 0,-1,0 --splat 0.4% --zoom 1.6
+  mapfile -t bar < <(sweep figure4 mean "$titles" "${literal[@]}")
+  mapfile -t fixed_bar < <(sweep figure4 mean "$titles" "${fixed[@]}")
+  "$bars" "$out/figure4.svg" "Plane, 0.5 % uniform noise, 10 % outliers: mean error by omega, 1e-4 diagonal" \
+    --panel "sigma as printed" "${bar[@]}" --panel "sigma fixed" "${fixed_bar[@]}"
+}
+
+figure5() {
+  local variants=() mu titles=0,0.1,0.2,0.3,0.5 files bar cover
+  for mu in ${titles//,/ }; do variants+=("ours:sample-ratio=0.5+iterations=30+repulsion-weight=$mu"); done
+  measure figure5 cube uniform 1 12000 "$(join "${variants[@]}")"
+  mapfile -t files < <(clouds figure5 "" "${variants[@]}")
+  draw figure5.png "mu ${titles//,/,mu }" "${files[@]}" -- --splat 0.35x --view 0,0,1 --up 0,1,0 --crop-min 0,0,0.8
+  mapfile -t bar < <(sweep figure5 mean "$titles" "${variants[@]}")
+  mapfile -t cover < <(sweep figure5 cov "$titles" "${variants[@]}")
+  "$bars" "$out/figure5.svg" "Cube, 12,000 points, 1 % uniform noise, M = N / 2, repulsion mu" \
+    --panel "surface to nearest point (cov)" "${cover[@]}" --panel "mean error, 1e-4 diagonal" "${bar[@]}"
+}
+
+figure6() {
+  local variants=() ratio titles=0.125,0.25,0.5,1 files bar
+  for ratio in ${titles//,/ }; do variants+=("ours:sample-ratio=$ratio"); done
+  measure figure6 block uniform 1.5 33490 "$(join "${variants[@]}")"
+  truth figure6 block
+  upsample figure6 60000 "${variants[@]}"
+  mapfile -t files < <(clouds figure6 "" "${variants[@]}")
+  draw figure6.png "M = N / 8,M = N / 4,M = N / 2,M = N" "${files[@]}" -- --splat 0.3% --view 0,-1,0 --crop-max 1,0.1,1
+  mapfile -t files < <(clouds figure6 -dense "${variants[@]}")
+  draw figure6-dense.png "from N / 8,from N / 4,from N / 2,from N" "${files[@]}" --
+  mapfile -t bar < <(sweep figure6 mean N/8,N/4,N/2,N "${variants[@]}")
+  local methods=("${variants[@]}") labels=(N/8 N/4 N/2 N) dense
+  mapfile -t dense < <(accuracy figure6 mean)
+  "$bars" "$out/figure6.svg" "Block, 1.5 % uniform noise, M samples" --panel "mean error of the samples" "${bar[@]}" \
+    --panel "truth to nearest of 60,000 upsampled" "${dense[@]}"
 }
 
 figure7() { compare_methods figure7 "Cube, 3 % uniform noise" cube uniform 3 33490 60000 points; }
 figure8() { compare_methods figure8 "Block, 1.5 % uniform noise" block uniform 1.5 33490 60000 surfaces; }
 figure9() { compare_methods figure9 "Star, 1 % uniform noise" star uniform 1 75053 100000 surfaces; }
+
+# Figures 13 and 14: a virtual scan, and the paper's error bars.
+scanned() {
+  local name=$1 title=$2 model=$3 noise=$4 bar
+  compare_methods "$name" "$title" "$model" scanner "$noise" 33490 60000 points "${@:5}"
+  measure "$name-clean" "$model" scanner 0 33490 clean
+  mv "$out/$name-clean/clean.ply" "$out/$name/"
+  rm -r "$out/$name-clean"
+  upsample "$name" 60000 clean
+  truth "$name" "$model"
+  mapfile -t bar < <(accuracy "$name" mean)
+  "$bars" "$out/$name.svg" "$title" --panel "truth to nearest of 60,000 points, 1e-4 diagonal" "${bar[@]}"
+  accuracy "$name" square >"$out/$name/square.txt"
+}
+figure13() { scanned figure13 "Sphere, scanner noise 1 %" sphere 1; }
+figure14() { scanned figure14 "Relief, scanner noise 0.5 %" relief 0.5; }
+
+figure15() {
+  local left right
+  [[ -s $out/figure13/square.txt ]] || figure13
+  [[ -s $out/figure14/square.txt ]] || figure14
+  mapfile -t left <"$out/figure13/square.txt"
+  mapfile -t right <"$out/figure14/square.txt"
+  "$bars" "$out/figure15.svg" "Mean squared errors, 1e-6 of the squared diagonal" --panel "sphere" "${left[@]}" \
+    --panel "relief" "${right[@]}"
+}
+
+figure18() {
+  local model wanted=(input) titles=input file
+  [[ $peers == no ]] || { wanted+=(wlop-best); titles+=,WLOP; }
+  wanted+=(paper:outlier-weight=0.9)
+  titles+=",literal,ours"
+  for model in plane cube; do
+    measure "figure18-$model" "$model" uniform 0.5 12000 "$(join "${wanted[@]}")" --outliers 10
+    tool filter "$out/figure18-$model/input.ply" -o "$out/figure18-$model/ours.ply" --outliers drop
+    mapfile -t file < <(clouds "figure18-$model" "" "${wanted[@]}" ours)
+    draw "figure18-$model.png" "$titles" "${file[@]}" -- --splat 0.5% --view 0.3,-1,0.25
+  done
+}
+
+figure19() { compare_methods figure19 "Block, 3 % uniform noise" block uniform 3 33490 60000 surfaces; }
+
+figure20() {
+  local half=ours:sample-ratio=0.5+iterations=30 wanted file
+  wanted=(input "$half+plain-repulsion" "$half+repulsion" ours)
+  measure figure20 cap uniform 0.5 12000 "$(join "${wanted[@]}")"
+  mapfile -t file < <(clouds figure20 "" "${wanted[@]}")
+  draw figure20.png "input,eq. 10 repulsion,own tangents,ours" "${file[@]}" -- --splat 0.4% --view 0,-1,0.3
+  tool filter tools/demo/box_scan.ply -o "$out/figure20/scan.ply"
+  tool filter tools/demo/box_scan.ply -o "$out/figure20/scan-printed.ply" --repulsion 0.3 --own-tangent-repulsion off \
+    --iterations 30 --samples 50%
+  draw figure20-scan.png "raw,eq. 10 repulsion,ours" tools/demo/box_scan.ply "$out"/figure20/scan{-printed,}.ply --
+}
+
+# Single-threaded, as the paper's machine; RIMLS with its defaults, the tuned settings would count a grid of runs.
+table1() {
+  local wanted=(rimls) titles=(RIMLS) i size row
+  [[ $peers == no ]] || { wanted+=(wlop-best bilateral); titles+=("CGAL WLOP, M = N / 2" "CGAL bilateral, all points"); }
+  wanted+=(paper ours:sample-ratio=0.5 ours)
+  titles+=("Algorithm 1 as printed, M = N / 2" "ours, M = N / 2" "ours, all points")
+  mkdir -p "$out/table1"
+  "$quality" --models block --kinds uniform --noises 1.5 --sizes 33490,50629,75053,48305 --threads 1 \
+    --methods "$(join "${wanted[@]}")" --csv "$out/table1/records.csv"
+  {
+    echo "| seconds, one thread | 33,490 | 50,629 | 75,053 | 48,305 |"
+    echo "|---|---|---|---|---|"
+    for i in "${!wanted[@]}"; do
+      row="| ${titles[i]} |"
+      for size in 33490 50629 75053 48305; do
+        row+=" $(awk -F , -v m="${wanted[i]}" -v n="$size" \
+          'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "cpu_s") at = i } $7 == m && $2 == n { printf "%.2f", $at }' \
+          "$out/table1/records.csv") |"
+      done
+      echo "$row"
+    done
+  } | tee "$out/table1.md"
+}
 
 for name in $names; do
   [[ -z $only || ,$only, == *,$name,* ]] || continue
