@@ -11,7 +11,7 @@ Makes stand-ins for Figures 4-9, 13-15, 18-21 and Table 1 of the paper from gene
   --only NAME,...  only these, names as --list prints them
   --peers          also build and run CGAL's WLOP and bilateral smoothing (needs libcgal-dev; stays on in build/release)
   --list           print the names and what each shows
-Builds pcl_gpf_tool and the benchmarks it needs in build/release; install what that takes with tools/install_dependencies.sh.
+Builds pcl_gpf_tool and the benchmarks it needs in build/release; tools/install_dependencies.sh installs what that takes.
 On two cores: about 5 minutes once built, with --peers about 10. Repeatable: every random number has a seed.
 TEXT
 }
@@ -80,8 +80,8 @@ labels+=(literal ours)
 
 join() { local IFS=,; echo "$*"; }
 
-# Runs `quality` for one cloud: measure DIR MODEL KIND NOISE SIZE METHODS [OPTION...]. Leaves DIR/records.csv and a cloud for each
-# method with the name of the method, all others than letters, digits, - and . replaced by _.
+# Runs `quality` for one cloud: measure DIR MODEL KIND NOISE SIZE METHODS [OPTION...]. Leaves DIR/records.csv and a cloud
+# for each method under its name, with _ for all but letters, digits, - and point.
 measure() {
   local dir=$out/$1 model=$2 kind=$3 noise=$4 size=$5 wanted=$6 file
   shift 6
@@ -141,8 +141,8 @@ draw() {
   tool render "${files[@]}" -o "$picture" --labels "$titles" --width 230 --height "$height" "$@"
 }
 
-# The paper's error, from points of the true surface to the nearest point of the dense cloud: LABEL=VALUE for each method, and for the
-# clean cloud where there is one. accuracy DIR mean|square; the mean in 1e-4 of the diagonal, the square in 1e-6 of its square.
+# The paper's error, from points of the true surface to the nearest point of the dense cloud: LABEL=VALUE for each method,
+# and for the clean cloud where there is one. accuracy DIR mean|square; 1e-4 of the diagonal, 1e-6 of its square.
 accuracy() {
   local dir=$out/$1 what=$2 diagonal i file
   local all=("${methods[@]}") titles=("${labels[@]}")
@@ -301,6 +301,22 @@ figure20() {
   draw figure20-scan.png "raw,eq. 10 repulsion,ours" tools/demo/box_scan.ply "$out"/figure20/scan{-printed,}.ply --
 }
 
+# Gap filling, limitation (iii) of the paper.
+figure21() {
+  local dir=$out/figure21 rounds
+  if ! "$root/build/release/tools/pcl_gpf_tool" filter --help | grep -q -- --gap-filling; then
+    echo "This tool has no --gap-filling; Figure 21 is left out."
+    return
+  fi
+  measure figure21 cube uniform 1 12000 input
+  for rounds in 0 4; do
+    tool filter "$dir/input.ply" -o "$dir/$rounds.ply" --normal-angle 90 --outliers keep --gap-filling "$rounds"
+    tool upsample "$dir/$rounds.ply" -o "$dir/$rounds-dense.ply" --count 40000
+  done
+  draw figure21.png "without,with" "$dir"/{0,4}.ply -- --splat 0.35x --view 0,0,1 --up 0,1,0 --crop-min 0,0,0.8
+  draw figure21-dense.png "without,with" "$dir"/{0,4}-dense.ply --
+}
+
 # Single-threaded, as the paper's machine; RIMLS with its defaults, the tuned settings would count a grid of runs.
 table1() {
   local wanted=(rimls) titles=(RIMLS) i size row
@@ -327,7 +343,6 @@ table1() {
 
 for name in $names; do
   [[ -z $only || ,$only, == *,$name,* ]] || continue
-  declare -F "$name" >/dev/null || continue
   echo "== $name"
   "$name"
 done

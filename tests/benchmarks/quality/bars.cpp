@@ -14,7 +14,8 @@ namespace {
 
 using namespace pcl_gpf::quality;
 
-constexpr const char* kUsage = "usage: bars FILE.svg TITLE --panel TITLE LABEL=VALUE ... [--panel TITLE LABEL=VALUE ...]\n";
+constexpr const char* kUsage =
+    "usage: bars FILE.svg TITLE --panel TITLE LABEL=VALUE ... [--panel TITLE LABEL=VALUE ...]\n";
 
 BarPanel::Bar
 parseBar(const std::string& text)

@@ -93,7 +93,8 @@ drawCharts(const std::vector<Record>& records)
     std::replace(title.begin(), title.end(), '_', ' ');
     if (!panels.empty())
       charts.push_back(
-          {"quality_" + fileSafe(name) + ".svg", drawSvg(title + ", " + std::to_string(series[name].front()->size) + " points", panels)});
+          {"quality_" + fileSafe(name) + ".svg",
+           drawSvg(title + ", " + std::to_string(series[name].front()->size) + " points", panels)});
   }
   return charts;
 }

@@ -14,7 +14,8 @@ struct Chart {
   std::string svg;
 };
 
-/** \brief Everything about a record's cloud but its noise level: model, and kind, size and outliers where they are not the usual ones. */
+/** \brief Everything about a record's cloud but its noise level: model, and kind, size and outliers where they
+ * are not the usual ones. */
 std::string
 seriesOf(const Record& record);
 /** \brief The text with an underscore for everything but letters, digits, - and point. */

@@ -124,7 +124,7 @@ usage()
                      "[--outliers PERCENT,...]\n"
                      "               [--methods NAME,...] [--seed N] [--threads N] [--references N] [--csv FILE] "
                      "[--svg-dir DIR]\n"
-                     "               [--cloud-dir DIR: each filtered cloud as a PLY file, with the distances to the surface]\n"
+                     "               [--cloud-dir DIR: filtered clouds as PLY, with their distances to the surface]\n"
                      "               [--reuse FILE: other filters are not run; their records come from this CSV file, "
                      "where it has them]\n"
                      "       quality --targets [--seed N] [--threads N] [--csv FILE]\n"

@@ -108,7 +108,7 @@ variant(const std::string& setting, double radius_in_diagonals, RimlsParameters 
           }};
 }
 
-/** Radii of 1.5 to 10 % of the diagonal; the width of the normals' weight sharp and smooth, residuals weighed or not. */
+/** Radii of 1.5 to 15 % of the diagonal; normals weighed sharply and smoothly, residuals or not. */
 std::vector<Variant>
 grid()
 {
@@ -116,7 +116,7 @@ grid()
     double normals, residuals;
   };
   std::vector<Variant> variants;
-  for (const double radius : {0.015, 0.025, 0.04, 0.06, 0.1})
+  for (const double radius : {0.015, 0.025, 0.04, 0.06, 0.1, 0.15})
     for (const Widths& widths : {Widths{0.75, 0}, Widths{0.75, 0.5}, Widths{1.5, 0}}) {
       RimlsParameters parameters;
       parameters.sigma_n = widths.normals;

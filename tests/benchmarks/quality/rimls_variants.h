@@ -8,9 +8,9 @@
 
 namespace pcl_gpf::quality {
 
-/** \brief Projection onto the RIMLS surface of the noisy points (pcl_gpf/core/operators/rimls.h): "rimls" with its own defaults, "rimls-best"
- * with a grid of radii and widths; no variants for other names. Normals: plane fits and bilateral filter with estimated lengths, oriented
- * by orientNormals() for "rimls" and by the truth for "rimls-best". */
+/** \brief Projection onto the RIMLS surface of the noisy points (pcl_gpf/core/operators/rimls.h): "rimls" with its own
+ * defaults, "rimls-best" with a grid of radii and widths; no variants for other names. Normals: plane fits and bilateral
+ * filter with estimated lengths, oriented by orientNormals() for "rimls" and by the truth for "rimls-best". */
 std::vector<Variant>
 rimlsVariants(const std::string& name);
 

@@ -95,7 +95,7 @@ drawAxes(const Panel& panel, const Axis& x, const Axis& y, const std::set<double
 {
   std::string svg =
       svgPrint("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444\"/>\n", x.a, y.b,
-            x.b - x.a, y.a - y.b);
+               x.b - x.a, y.a - y.b);
   for (const double v : ticks(y)) {
     svg += svgPrint("<path d=\"M%.1f %.1fh%.1f\" stroke=\"#ddd\"/>\n", x.a, y.at(v), x.b - x.a);
     svg += svgText(x.a - 6, y.at(v) + 4, svgPrint("%g", v), "end");
@@ -110,9 +110,10 @@ drawAxes(const Panel& panel, const Axis& x, const Axis& y, const std::set<double
     svg += svgText(x.at(v), y.a + 16, svgPrint("%g", v));
   }
   const double middle = 0.5 * (x.a + x.b), height = 0.5 * (y.a + y.b);
-  svg += svgText(middle, y.a + 34, panel.x_label) + svgText(middle, y.b - 9, panel.title, "middle", "font-weight=\"bold\"");
+  svg += svgText(middle, y.a + 34, panel.x_label) +
+         svgText(middle, y.b - 9, panel.title, "middle", "font-weight=\"bold\"");
   return svg + svgText(x.a - 44, height, panel.y_label, "middle",
-                    svgPrint("transform=\"rotate(-90 %.1f %.1f)\"", x.a - 44, height).c_str());
+                       svgPrint("transform=\"rotate(-90 %.1f %.1f)\"", x.a - 44, height).c_str());
 }
 
 std::string
@@ -126,7 +127,7 @@ drawLine(const Panel::Line& line, const Axis& x, const Axis& y)
   }
   return "<path d=\"" + path +
          svgPrint("\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", style.colour,
-               style.width, style.dash) +
+                  style.width, style.dash) +
          markers;
 }
 
@@ -163,7 +164,7 @@ drawLegend(const std::map<std::size_t, std::string>& labels, double top, std::si
                  y = top + kLegendRow * static_cast<double>(i / columns);
     const Style& style = styleOf(number);
     svg += svgPrint("<path d=\"M%.1f %.1fh30\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", x, y,
-                 style.colour, style.width, style.dash);
+                    style.colour, style.width, style.dash);
     svg += marker(style, x + 15, y) + svgText(x + 37, y + 4, label, "start");
     ++i;
   }
