@@ -104,6 +104,7 @@ describeMethods()
          "  mls, jet                pcl::MovingLeastSquares, CGAL's jet smoothing, and below CGAL's bilateral "
          "smoothing and WLOP,\n"
          "  bilateral, wlop         without tuning; with -best behind, the best of a grid of settings for each cloud\n"
+         "  wlop-half               WLOP that keeps half of the points, as papers do, radius 3 % of the diagonal\n"
          "                          (need a build with PCL_GPF_BENCHMARK_PEERS)\n"
          "  ours:CHANGE+CHANGE      the same with parameters changed (also paper:...), CHANGE one of\n" +
          describeChanges();
