@@ -353,4 +353,4 @@ run_figures() {
   done
   echo "pictures, bars and tables: $out"
 }
-run_figures; exit
+run_figures
