@@ -11,7 +11,7 @@ Makes stand-ins for Figures 4-9, 13-15, 18-21 and Table 1 of the paper from gene
   --only NAME,...  only these, names as --list prints them
   --peers          also build and run CGAL's WLOP and bilateral smoothing (needs libcgal-dev; stays on in build/release)
   --list           print the names and what each shows
-Builds pcl_gpf_tool and the benchmarks it needs in build/release; tools/install_dependencies.sh installs what that takes.
+Builds pcl_gpf_tool and two benchmarks in build/release; tools/install_dependencies.sh installs what that takes.
 On two cores: about 5 minutes once built, with --peers about 10. Repeatable: every random number has a seed.
 TEXT
 }
@@ -80,8 +80,8 @@ labels+=(literal ours)
 
 join() { local IFS=,; echo "$*"; }
 
-# Runs `quality` for one cloud: measure DIR MODEL KIND NOISE SIZE METHODS [OPTION...]. Leaves DIR/records.csv and a cloud
-# for each method under its name, with _ for all but letters, digits, - and point.
+# Runs `quality` for one cloud: measure DIR MODEL KIND NOISE SIZE METHODS [OPTION...]. Leaves DIR/records.csv and a
+# cloud for each method under its name, with _ for all but letters, digits, - and point.
 measure() {
   local dir=$out/$1 model=$2 kind=$3 noise=$4 size=$5 wanted=$6 file
   shift 6
@@ -141,8 +141,8 @@ draw() {
   tool render "${files[@]}" -o "$picture" --labels "$titles" --width 230 --height "$height" "$@"
 }
 
-# The paper's error, from points of the true surface to the nearest point of the dense cloud: LABEL=VALUE for each method,
-# and for the clean cloud where there is one. accuracy DIR mean|square; 1e-4 of the diagonal, 1e-6 of its square.
+# The paper's error, from points of the true surface to the nearest point of the dense cloud: LABEL=VALUE for each
+# method, and for the clean cloud where there is one. accuracy DIR mean|square; 1e-4 of the diagonal, 1e-6 of its square.
 accuracy() {
   local dir=$out/$1 what=$2 diagonal i file
   local all=("${methods[@]}") titles=("${labels[@]}")
@@ -183,6 +183,7 @@ compare_methods() {
   measure "$name" "$model" "$kind" "$noise" "$size" "$(join input "${methods[@]}")"
   upsample "$name" "$count" "${methods[@]}"
   for method in "${methods[@]}"; do
+    method=$(safe "$method")
     points+=("$out/$name/$method-dense.ply")
     meshes+=("$out/$name/$method-mesh.ply")
   done
@@ -195,7 +196,8 @@ compare_methods() {
   mapfile -t mean < <(sweep "$name" mean "$titles" "${methods[@]}")
   [[ -n $(column "$name" input ecov) ]] || return 0
   mapfile -t ecov < <(sweep "$name" ecov "$titles" "${methods[@]}")
-  "$bars" "$out/$name.svg" "$title" --panel "mean error, 1e-4 diagonal" "input=$(column "$name" input mean)" "${mean[@]}" \
+  "$bars" "$out/$name.svg" "$title" \
+    --panel "mean error, 1e-4 diagonal" "input=$(column "$name" input mean)" "${mean[@]}" \
     --panel "edges to nearest point (ecov)" "input=$(column "$name" input ecov)" "${ecov[@]}"
 }
 
@@ -248,17 +250,20 @@ figure7() { compare_methods figure7 "Cube, 3 % uniform noise" cube uniform 3 334
 figure8() { compare_methods figure8 "Block, 1.5 % uniform noise" block uniform 1.5 33490 60000 surfaces; }
 figure9() { compare_methods figure9 "Star, 1 % uniform noise" star uniform 1 75053 100000 surfaces; }
 
-# Figures 13 and 14: a virtual scan, and the paper's error bars.
+# Figures 13 and 14: a virtual scan, and the paper's error bars. One more method: the same filter told to smooth more.
 scanned() {
-  local name=$1 title=$2 model=$3 noise=$4 bar
+  local name=$1 title=$2 model=$3 noise=$4 bar mean
+  local methods=("${methods[@]}" ours:strength=2) labels=("${labels[@]}" "ours 2x")
   compare_methods "$name" "$title" "$model" scanner "$noise" 33490 60000 points "${@:5}"
   measure "$name-clean" "$model" scanner 0 33490 clean
   mv "$out/$name-clean/clean.ply" "$out/$name/"
   rm -r "$out/$name-clean"
   upsample "$name" 60000 clean
   truth "$name" "$model"
+  mapfile -t mean < <(sweep "$name" mean "$(join "${labels[@]}")" "${methods[@]}")
   mapfile -t bar < <(accuracy "$name" mean)
-  "$bars" "$out/$name.svg" "$title" --panel "truth to nearest of 60,000 points, 1e-4 diagonal" "${bar[@]}"
+  "$bars" "$out/$name.svg" "$title" --panel "mean error, 1e-4 diagonal" "${mean[@]}" \
+    --panel "truth to nearest of 60,000 points, 1e-4 diagonal" "${bar[@]}"
   accuracy "$name" square >"$out/$name/square.txt"
 }
 figure13() { scanned figure13 "Sphere, scanner noise 1 %" sphere 1; }

@@ -19,7 +19,7 @@ widthOf(const BarPanel& panel)
 const char*
 colourOf(const std::string& label)
 {
-  return label == "ours" ? "#0072B2" : label == "input" || label == "clean" ? "#aaaaaa" : "#E69F00";
+  return label.rfind("ours", 0) == 0 ? "#0072B2" : label == "input" || label == "clean" ? "#aaaaaa" : "#E69F00";
 }
 
 std::string

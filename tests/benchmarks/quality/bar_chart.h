@@ -16,7 +16,7 @@ struct BarPanel {
   std::vector<Bar> bars;
 };
 
-/** \brief Panels side by side, as a complete SVG document. A bar labelled "ours" is drawn in
+/** \brief Panels side by side, as a complete SVG document. A bar whose label begins with "ours" is drawn in
  * this project's colour, "input" and "clean" in grey. */
 std::string
 drawBars(const std::string& title, const std::vector<BarPanel>& panels);
