@@ -142,7 +142,8 @@ draw() {
 }
 
 # The paper's error, from points of the true surface to the nearest point of the dense cloud: LABEL=VALUE for each
-# method, and for the clean cloud where there is one. accuracy DIR mean|square; 1e-4 of the diagonal, 1e-6 of its square.
+# method, and for the clean cloud where there is one.
+# accuracy DIR mean|square; 1e-4 of the diagonal, 1e-6 of its square.
 accuracy() {
   local dir=$out/$1 what=$2 diagonal i file
   local all=("${methods[@]}") titles=("${labels[@]}")
