@@ -268,7 +268,7 @@ scanned() {
   accuracy "$name" square >"$out/$name/square.txt"
 }
 figure13() { scanned figure13 "Sphere, scanner noise 1 %" sphere 1; }
-figure14() { scanned figure14 "Relief, scanner noise 0.5 %" relief 0.5; }
+figure14() { scanned figure14 "Relief, scanner noise 0.5 %" relief 0.5 --view 0.3,-0.8,1.2 --zoom 1.1; }
 
 figure15() {
   local left right
