@@ -12,7 +12,7 @@ Makes stand-ins for Figures 4-9, 13-15, 18-21 and Table 1 of the paper from gene
   --peers          also build and run CGAL's WLOP and bilateral smoothing (needs libcgal-dev; stays on in build/release)
   --list           print the names and what each shows
 Builds pcl_gpf_tool and two benchmarks in build/release; tools/install_dependencies.sh installs what that takes.
-On two cores: about 5 minutes once built, with --peers about 10. Repeatable: every random number has a seed.
+On two cores: about 5 minutes once built, with --peers about 15. Repeatable: every random number has a seed.
 TEXT
 }
 
