@@ -9,14 +9,10 @@
 
 namespace pcl_gpf::quality {
 
-namespace {
-
-constexpr std::size_t kUsualSize = 33490;
-
-/** Everything about a cloud but its noise level. */
 std::string
 seriesOf(const Record& r)
 {
+  constexpr std::size_t kUsualSize = 33490;
   std::string name = r.model;
   if (r.noise.kind != NoiseKind::Gaussian)
     name += std::string("_") + nameOf(r.noise.kind);
@@ -31,13 +27,15 @@ seriesOf(const Record& r)
 }
 
 std::string
-fileNameOf(std::string series)
+fileSafe(std::string name)
 {
-  for (char& c : series)
+  for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.')
       c = '_';
-  return "quality_" + series + ".svg";
+  return name;
 }
+
+namespace {
 
 /** Styles 0 and 1 are for what comes in, 2 for the filter of this project, the others in the order of appearance. */
 std::size_t
@@ -95,7 +93,8 @@ drawCharts(const std::vector<Record>& records)
     std::replace(title.begin(), title.end(), '_', ' ');
     if (!panels.empty())
       charts.push_back(
-          {fileNameOf(name), drawSvg(title + ", " + std::to_string(series[name].front()->size) + " points", panels)});
+          {"quality_" + fileSafe(name) + ".svg",
+           drawSvg(title + ", " + std::to_string(series[name].front()->size) + " points", panels)});
   }
   return charts;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiment.h"
 #include "report.h"
+#include "result_cloud.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace pcl_gpf::quality {
 
@@ -29,15 +31,18 @@ findEarlier(const std::vector<Record>& earlier, const NoisyCloud& cloud, const s
 } // namespace
 
 Record
-runMethod(const NoisyCloud& cloud, const Method& method, const MeasureOptions& options)
+runMethod(const NoisyCloud& cloud, const Method& method, const MeasureOptions& options, MethodResult* best_result)
 {
   Record best;
   for (const Variant& variant : method.variants) {
-    const Figures figures = measure(cloud, variant.run(cloud, options.threads), options);
+    MethodResult result = variant.run(cloud, options.threads);
+    const Figures figures = measure(cloud, result, options);
     if (best.method.empty() || figures.mean < best.figures.mean) {
       best.method = method.name;
       best.setting = variant.setting;
       best.figures = figures;
+      if (best_result != nullptr)
+        *best_result = std::move(result);
     }
   }
   best.model = cloud.model.name;
@@ -53,6 +58,8 @@ runExperiment(const Options& options, const std::function<void(const Record&)>& 
   measuring.references = options.references;
   measuring.threads = options.threads;
   std::vector<Record> records, earlier;
+  if (!options.cloud_dir.empty())
+    std::filesystem::create_directories(options.cloud_dir);
   if (!options.reuse.empty())
     earlier = readCsv(options.reuse);
   for (const std::string& name : options.models)
@@ -67,7 +74,10 @@ runExperiment(const Options& options, const std::function<void(const Record&)>& 
               const Record* const known = take ? findEarlier(earlier, cloud, method) : nullptr;
               if (take && known == nullptr)
                 continue;
-              records.push_back(take ? *known : runMethod(cloud, makeMethod(method), measuring));
+              MethodResult made;
+              records.push_back(take ? *known : runMethod(cloud, makeMethod(method), measuring, &made));
+              if (!options.cloud_dir.empty() && !take)
+                writeResultCloud(options.cloud_dir + "/" + cloudFileName(records.back()), cloud, made);
               report(records.back());
             }
           }

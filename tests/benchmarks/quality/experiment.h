@@ -22,9 +22,13 @@ struct Record {
   Figures figures;
 };
 
-/** \brief Runs every variant of a method on a cloud and keeps the one with the least mean error. */
+/** \brief Runs every variant of a method on a cloud and keeps the one with the least mean error.
+ * \param[out] best_result what it made, or null */
 Record
-runMethod(const NoisyCloud& cloud, const Method& method, const MeasureOptions& options);
+runMethod(const NoisyCloud& cloud,
+          const Method& method,
+          const MeasureOptions& options,
+          MethodResult* best_result = nullptr);
 
 /** \brief Runs everything that the options name, cloud by cloud, and hands each record over as soon as it is there. */
 std::vector<Record>

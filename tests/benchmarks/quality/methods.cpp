@@ -2,6 +2,7 @@
 #include "methods.h"
 #include "parameter_changes.h"
 #include "peer_variants.h"
+#include "rimls_variants.h"
 #include "stopwatch.h"
 
 #include <pcl_gpf/pipeline/denoise.h>
@@ -84,6 +85,8 @@ makeMethod(const std::string& name)
     return {name, {{"", [](const NoisyCloud& cloud, unsigned) { return identity(cloud.points); }}}};
   if (name == "clean")
     return {name, {{"", cleanPoints}}};
+  if (Method rimls = {name, rimlsVariants(name)}; !rimls.variants.empty())
+    return rimls;
   if (Method peer = {name, peerVariants(name)}; !peer.variants.empty())
     return peer;
   throw std::invalid_argument("there is no method \"" + name + "\"; there are\n" + describeMethods());
@@ -96,9 +99,12 @@ describeMethods()
          "  clean                   the points before the noise: the floor of cov and ecov\n"
          "  ours                    the chain as denoise() runs it, no parameter given\n"
          "  paper                   Algorithm 1 as printed, GPFParameters::paper()\n"
+         "  rimls                   projection onto the RIMLS surface of the noisy points, core/operators/rimls.h;\n"
+         "                          with -best behind, the best of a grid of settings\n"
          "  mls, jet                pcl::MovingLeastSquares, CGAL's jet smoothing, and below CGAL's bilateral "
          "smoothing and WLOP,\n"
          "  bilateral, wlop         without tuning; with -best behind, the best of a grid of settings for each cloud\n"
+         "  wlop-half               WLOP that keeps half of the points, as papers do, radius 3 % of the diagonal\n"
          "                          (need a build with PCL_GPF_BENCHMARK_PEERS)\n"
          "  ours:CHANGE+CHANGE      the same with parameters changed (also paper:...), CHANGE one of\n" +
          describeChanges();

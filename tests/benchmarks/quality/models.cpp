@@ -3,6 +3,7 @@
 #include "analytic_models.h"
 #include "mesh_surface.h"
 #include "numbers.h"
+#include "star_model.h"
 
 #include <pcl_gpf/core/sampling.h>
 
@@ -33,6 +34,8 @@ makeModel(const std::string& name, std::size_t count)
   Model model;
   if (base == "mesh")
     model.surface = sharedMeshSurface(rest);
+  else if (name == "star")
+    model.surface = starSurface();
   else if (base == "sheets")
     model = makeSheets(rest.empty() ? kDefaultGap : toNumber(rest), count);
   else if (base == "cube-graded" || base == "block-graded") {

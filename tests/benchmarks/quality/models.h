@@ -18,7 +18,7 @@ struct Model {
 };
 
 constexpr const char* kModelNames =
-    "cube, block, sphere, relief, cylinder, torus, sheets[:gap in spacings, default 4], plane, cap, "
+    "cube, block, sphere, relief, cylinder, torus, sheets[:gap in spacings, default 4], plane, cap, star, "
     "cube-graded[:G, default 4], block-graded[:G], mesh:<name of a shared mesh>";
 
 /** \brief Makes a model. \param[in] count points that will be drawn; the gap of `sheets` is in their spacing.

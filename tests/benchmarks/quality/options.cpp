@@ -102,6 +102,7 @@ parseOptions(const std::vector<std::string>& arguments)
       {"--csv", [&](const std::string& v) { o.csv = v; }},
       {"--reuse", [&](const std::string& v) { o.reuse = v; }},
       {"--svg-dir", [&](const std::string& v) { o.svg_dir = v; }},
+      {"--cloud-dir", [&](const std::string& v) { o.cloud_dir = v; }},
   };
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (const auto flag = flags.find(arguments[i]); flag != flags.end())
@@ -124,6 +125,7 @@ usage()
                      "[--outliers PERCENT,...]\n"
                      "               [--methods NAME,...] [--seed N] [--threads N] [--references N] [--csv FILE] "
                      "[--svg-dir DIR]\n"
+                     "               [--cloud-dir DIR: filtered clouds as PLY, with their distances to the surface]\n"
                      "               [--reuse FILE: other filters are not run; their records come from this CSV file, "
                      "where it has them]\n"
                      "       quality --targets [--seed N] [--threads N] [--csv FILE]\n"

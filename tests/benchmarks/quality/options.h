@@ -23,6 +23,7 @@ struct Options {
   std::string csv;     ///< file; empty = none
   std::string reuse;   ///< file whose records of other filters are taken instead of running them; empty = none
   std::string svg_dir; ///< folder; empty = none
+  std::string cloud_dir; ///< folder for the filtered clouds; empty = none
   bool targets = false;
   bool noise_estimates = false;
   bool help = false;

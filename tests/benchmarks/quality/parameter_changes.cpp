@@ -33,6 +33,8 @@ const Ablation kAblations[] = {
     {"one-scale", "the lengths of a filter that runs alone", [](DenoiseParameters& p) { p.two_scales = false; }},
     {"no-limit", "moves of any length",
      [](DenoiseParameters& p) { p.max_move = std::numeric_limits<double>::infinity(); }},
+    {"keep-outliers", "outliers stay among the data of the others",
+     [](DenoiseParameters& p) { p.flags.outliers = false; }},
     {"posterior", "eq. 3's normalisation, sigma still fixed",
      [](DenoiseParameters& p) { p.gpf.posterior_normalization = true; }},
     {"one-degree", "sigma updated with one degree of freedom, posteriors normalised",

@@ -214,6 +214,8 @@ peerVariants(const std::string& name)
             bilateral({300, 0.12, 35}, {300, 40, 3})};
   if (name == "wlop")
     return {wlop(0, 35, 5)};
+  if (name == "wlop-half")
+    return {wlop(0.03, 25, 50)};
   if (name == "wlop-best")
     return {wlop(0.03, 25, 50), wlop(0.05, 20, 50), wlop(0.08, 15, 50)};
   return {};

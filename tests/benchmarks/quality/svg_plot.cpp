@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "svg_plot.h"
+#include "svg_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -34,42 +34,18 @@ styleOf(std::size_t number)
                                 : 3 + (number - 3) % (count - 3)]; // the first three are for input, floor and our own
 }
 
-template <typename... Values>
-std::string
-print(const char* format, Values... values)
-{
-  char text[400];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
-std::string
-escaped(const std::string& text)
-{
-  std::string result;
-  for (const char c : text)
-    result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
-  return result;
-}
-
-std::string
-text(double x, double y, const std::string& what, const char* anchor = "middle", const char* more = "")
-{
-  return print("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor, more) + escaped(what) + "</text>\n";
-}
-
 std::string
 marker(const Style& style, double x, double y)
 {
   switch (style.marker) {
   case 'o':
-    return print("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.6\" fill=\"%s\"/>\n", x, y, style.colour);
+    return svgPrint("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.6\" fill=\"%s\"/>\n", x, y, style.colour);
   case 's':
-    return print("<rect x=\"%.1f\" y=\"%.1f\" width=\"6\" height=\"6\" fill=\"%s\"/>\n", x - 3, y - 3, style.colour);
+    return svgPrint("<rect x=\"%.1f\" y=\"%.1f\" width=\"6\" height=\"6\" fill=\"%s\"/>\n", x - 3, y - 3, style.colour);
   case 't':
-    return print("<path d=\"M%.1f %.1fl4 7h-8z\" fill=\"%s\"/>\n", x, y - 4.5, style.colour);
+    return svgPrint("<path d=\"M%.1f %.1fl4 7h-8z\" fill=\"%s\"/>\n", x, y - 4.5, style.colour);
   case 'd':
-    return print("<path d=\"M%.1f %.1fl4 4l-4 4l-4 -4z\" fill=\"%s\"/>\n", x, y - 4, style.colour);
+    return svgPrint("<path d=\"M%.1f %.1fl4 4l-4 4l-4 -4z\" fill=\"%s\"/>\n", x, y - 4, style.colour);
   default:
     return "";
   }
@@ -118,25 +94,26 @@ std::string
 drawAxes(const Panel& panel, const Axis& x, const Axis& y, const std::set<double>& xs)
 {
   std::string svg =
-      print("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444\"/>\n", x.a, y.b,
-            x.b - x.a, y.a - y.b);
+      svgPrint("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444\"/>\n", x.a, y.b,
+               x.b - x.a, y.a - y.b);
   for (const double v : ticks(y)) {
-    svg += print("<path d=\"M%.1f %.1fh%.1f\" stroke=\"#ddd\"/>\n", x.a, y.at(v), x.b - x.a);
-    svg += text(x.a - 6, y.at(v) + 4, print("%g", v), "end");
+    svg += svgPrint("<path d=\"M%.1f %.1fh%.1f\" stroke=\"#ddd\"/>\n", x.a, y.at(v), x.b - x.a);
+    svg += svgText(x.a - 6, y.at(v) + 4, svgPrint("%g", v), "end");
   }
   double last = -1e9;
   for (const double v : xs) {
-    svg += print("<path d=\"M%.1f %.1fv%.1f\" stroke=\"#ddd\"/>\n", x.at(v), y.a, y.b - y.a);
+    svg += svgPrint("<path d=\"M%.1f %.1fv%.1f\" stroke=\"#ddd\"/>\n", x.at(v), y.a, y.b - y.a);
     constexpr double kLabelWidth = 24;
     if (x.at(v) - last < kLabelWidth)
       continue;
     last = x.at(v);
-    svg += text(x.at(v), y.a + 16, print("%g", v));
+    svg += svgText(x.at(v), y.a + 16, svgPrint("%g", v));
   }
   const double middle = 0.5 * (x.a + x.b), height = 0.5 * (y.a + y.b);
-  svg += text(middle, y.a + 34, panel.x_label) + text(middle, y.b - 9, panel.title, "middle", "font-weight=\"bold\"");
-  return svg + text(x.a - 44, height, panel.y_label, "middle",
-                    print("transform=\"rotate(-90 %.1f %.1f)\"", x.a - 44, height).c_str());
+  svg += svgText(middle, y.a + 34, panel.x_label) +
+         svgText(middle, y.b - 9, panel.title, "middle", "font-weight=\"bold\"");
+  return svg + svgText(x.a - 44, height, panel.y_label, "middle",
+                       svgPrint("transform=\"rotate(-90 %.1f %.1f)\"", x.a - 44, height).c_str());
 }
 
 std::string
@@ -145,12 +122,12 @@ drawLine(const Panel::Line& line, const Axis& x, const Axis& y)
   const Style& style = styleOf(line.style);
   std::string path, markers;
   for (const auto& [px, py] : line.points) {
-    path += print("%s%.1f %.1f", path.empty() ? "M" : "L", x.at(px), y.at(py));
+    path += svgPrint("%s%.1f %.1f", path.empty() ? "M" : "L", x.at(px), y.at(py));
     markers += marker(style, x.at(px), y.at(py));
   }
   return "<path d=\"" + path +
-         print("\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", style.colour,
-               style.width, style.dash) +
+         svgPrint("\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", style.colour,
+                  style.width, style.dash) +
          markers;
 }
 
@@ -186,9 +163,9 @@ drawLegend(const std::map<std::size_t, std::string>& labels, double top, std::si
     const double x = kLeft + kLegendColumn * static_cast<double>(i % columns),
                  y = top + kLegendRow * static_cast<double>(i / columns);
     const Style& style = styleOf(number);
-    svg += print("<path d=\"M%.1f %.1fh30\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", x, y,
-                 style.colour, style.width, style.dash);
-    svg += marker(style, x + 15, y) + text(x + 37, y + 4, label, "start");
+    svg += svgPrint("<path d=\"M%.1f %.1fh30\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-dasharray=\"%s\"/>\n", x, y,
+                    style.colour, style.width, style.dash);
+    svg += marker(style, x + 15, y) + svgText(x + 37, y + 4, label, "start");
     ++i;
   }
   return svg;
@@ -209,12 +186,7 @@ drawSvg(const std::string& title, const std::vector<Panel>& panels)
   const double legend_top = kTop + kPlotHeight + kBelow,
                rows = std::ceil(static_cast<double>(labels.size()) / static_cast<double>(columns));
   const double height = legend_top + kLegendRow * rows;
-  std::string svg =
-      print("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-            "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#222\">\n",
-            width, height, width, height);
-  svg += print("<rect width=\"%.0f\" height=\"%.0f\" fill=\"#fff\"/>\n", width, height);
-  svg += text(0.5 * width, 24, title, "middle", "font-size=\"15\"");
+  std::string svg = svgHead(width, height, title);
   for (std::size_t i = 0; i < panels.size(); ++i)
     svg += drawPanel(panels[i], kLeft + static_cast<double>(i) * (kPlotWidth + kGap + kLeft));
   return svg + drawLegend(labels, legend_top, columns) + "</svg>\n";

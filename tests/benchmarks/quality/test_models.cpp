@@ -162,7 +162,7 @@ TEST_P(EveryModel, BoundaryDirectionsLeadOff)
 
 INSTANTIATE_TEST_SUITE_P(Models, EveryModel,
                          ::testing::Values("cube", "block", "sphere", "relief", "cylinder", "torus", "sheets", "plane",
-                                           "cap", "cube-graded", "block-graded:-3", "mesh of a cube",
+                                           "cap", "star", "cube-graded", "block-graded:-3", "mesh of a cube",
                                            "mesh with an opening"));
 
 TEST(Models, AreasAndDiagonals)

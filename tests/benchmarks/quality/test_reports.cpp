@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "bar_chart.h"
 #include "charts.h"
 #include "options.h"
 #include "parameter_changes.h"
 #include "report.h"
+#include "result_cloud.h"
 #include "targets.h"
+
+#include <pcl_gpf/io/read_cloud.h>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -89,6 +94,46 @@ TEST(QualityCharts, OneFileAModelWithALineAMethod)
     EXPECT_EQ(chart.svg.find("nan"), std::string::npos);
 }
 
+TEST(QualityBars, HeightsAreProportionalAndValuesAreWritten)
+{
+  const std::string svg = drawBars("t", {{"p", {{"ours", 2}, {"a<b", 8}}}, {"none", {{"zero", 0}}}});
+  EXPECT_EQ(countOf(svg, "height=\"170.0\""), 1u) << "the largest bar of the first panel";
+  EXPECT_EQ(countOf(svg, "height=\"42.5\""), 1u);
+  EXPECT_EQ(countOf(svg, "height=\"0.0\""), 1u);
+  EXPECT_NE(svg.find(">8</text>"), std::string::npos);
+  EXPECT_NE(svg.find("a&lt;b"), std::string::npos);
+}
+
+TEST(QualityClouds, HoldFinitePointsNormalsAndDistances)
+{
+  const NoisyCloud cloud = makeNoisyCloud(makeModel("plane", 10), 10, {});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  MethodResult result;
+  result.points = {{0.5, 0.5, 0.25}, {nan, 0, 0}, {0.25, 0.5, 0}};
+  result.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, -1}};
+  const std::string path = ::testing::TempDir() + "quality_" + std::to_string(getpid()) + ".ply";
+  writeResultCloud(path, cloud, result);
+  const CloudFile read = readCloud(path);
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_TRUE(read.hasNormals());
+  EXPECT_EQ(read.coordinates().x, (std::vector<double>{0.5, 0.25}));
+  EXPECT_NEAR(read.value(0, read.findField("distance")), 0.25e4 / std::sqrt(2), 1e-3);
+  EXPECT_EQ(read.value(1, read.findField("distance")), 0);
+  result.normals.clear();
+  writeResultCloud(path, cloud, result);
+  EXPECT_FALSE(readCloud(path).hasNormals());
+  std::filesystem::remove(path);
+}
+
+TEST(QualityClouds, AreNamedAfterTheirRecords)
+{
+  Record r = record("cube", 1.5, "ours:h=8+iterations=3", 1);
+  EXPECT_EQ(cloudFileName(r), "cube_1.5_ours_h_8_iterations_3.ply");
+  r.noise = {NoiseKind::Uniform, 0.5, 0.1, 1};
+  r.size = 6000;
+  EXPECT_EQ(cloudFileName(r), "cube_uniform_6000_10_outliers_0.5_ours_h_8_iterations_3.ply");
+}
+
 TEST(QualityTargets, VerdictsFollowTheFigures)
 {
   const Target target = {"cube", 1, "mean", nullptr, 10, 8};
@@ -121,6 +166,15 @@ TEST(QualityOptions, ListsAndGroups)
   EXPECT_EQ(o.kinds, (std::vector<NoiseKind>{NoiseKind::Scanner, NoiseKind::Uniform}));
   EXPECT_EQ(o.outliers, (std::vector<double>{0, 0.05}));
   EXPECT_EQ(o.seed, 9u);
+}
+
+/** tools/reproduce_paper.sh spells these. */
+TEST(QualityOptions, KnowTheMethodsOfThePapersFigures)
+{
+  EXPECT_NO_THROW(parseOptions({"--methods", "rimls,rimls-best,paper:repulsion-weight=0+outlier-weight=0.9,"
+                                             "ours:posterior+keep-outliers+h=20+outlier-weight=0.9,"
+                                             "ours:sample-ratio=0.5+iterations=30+repulsion-weight=0.3,"
+                                             "ours:sample-ratio=0.5+iterations=30+plain-repulsion"}));
 }
 
 TEST(QualityOptions, RefuseWhatTheyDoNotKnow)
