@@ -19,14 +19,19 @@ DenoiseParameters
 parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,
              DenoiseResult& result)
 {
-  for (ParameterOrigin& origin : estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale)) {
-    origin.value = frame.lengthToWorld(origin.value);
-    origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
-    if (origin.reason.find("noise") != std::string::npos)
-      origin.reason += strengthNote(parameters.strength);
-    result.parameters.push_back(std::move(origin));
-  }
-  if (filter_scale == FilterScale::Fine) { // further rounds would turn small bosses into slopes
+  const auto note = [&](std::vector<ParameterOrigin> origins) {
+    for (ParameterOrigin& origin : origins) {
+      origin.value = frame.lengthToWorld(origin.value);
+      origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
+      if (origin.reason.find("noise") != std::string::npos)
+        origin.reason += strengthNote(parameters.strength);
+      result.parameters.push_back(std::move(origin));
+    }
+  };
+  note(estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale));
+  if (filter_scale == FilterScale::Fine) {
+    note(estimateParameters(scale, parameters.steered));
+    // Further rounds would turn small bosses into slopes.
     parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
     parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
   }

@@ -7,6 +7,7 @@
 #include <pcl_gpf/core/operators/bilateral_normals.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/operators/steered_fit.h>
 
 #include <array>
 #include <cstddef>
@@ -33,6 +34,9 @@ struct DenoiseParameters {
   /** Filter at two scales and take at each point the coarse result, or the fine one where the coarse one took detail away
    * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals; otherwise one scale. */
   bool two_scales = true;
+
+  /** Planes over neighbourhoods that follow edges, fitted at the points that take the fine result; `passes` = 0: none. */
+  SteeredFitParameters steered;
 
   /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
    * stays as it is. Infinity = no limit. Not applied to the paper's recursion unless it is set. */

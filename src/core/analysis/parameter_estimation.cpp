@@ -33,6 +33,8 @@ rulesOf(FilterScale filter_scale)
   }
 }
 
+constexpr LengthRule kSteeredRadius = {1.9, 3.0}, kDirectionRadius = {4.0, 6.0};
+
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
 {
@@ -99,6 +101,15 @@ estimateParameters(const CloudScale& scale, PlaneNormalsParameters& normals, Bil
     fill(gpf.support_radius, {"gpf.support_radius", 8.0 * scale.h0, "preset", "8 x h0, within the paper's 3 .. 12"}, origins);
   else
     fill(gpf.support_radius, lengthFromScale("gpf.support_radius", scale, rules.support), origins);
+  return origins;
+}
+
+std::vector<ParameterOrigin>
+estimateParameters(const CloudScale& scale, SteeredFitParameters& steered)
+{
+  std::vector<ParameterOrigin> origins;
+  fill(steered.radius, lengthFromScale("steered.radius", scale, kSteeredRadius), origins);
+  fill(steered.direction_radius, lengthFromScale("steered.direction_radius", scale, kDirectionRadius), origins);
   return origins;
 }
 

@@ -127,6 +127,21 @@ struct Moments {
   MutableVectors<float> scatter_mixed;    ///< yz xz xy
 };
 
+/** Moments of the data d = datum - query with d^T A d < 1, A the query's own metric; weight (1 - d^T A d)^2. */
+struct SteeredMoments {
+  Vectors<float> queries, data;
+  Radius<float> radius;                   ///< of a ball about the query that holds the ellipsoid
+  Vectors<float> metric_diagonal, metric_mixed; ///< A of each query: xx yy zz, yz xz xy
+  Vectors<float> residuals;               ///< a vector of each datum, padded like the data
+  const float* data_weight = nullptr;     ///< null: all 1
+  std::size_t first_output = 0;           ///< query whose results go to the first place of the arrays below
+  float* weight_sum = nullptr;
+  MutableVectors<float> mean;             ///< sum of weight * d
+  MutableVectors<float> residual;         ///< sum of weight * residual
+  MutableVectors<float> scatter_diagonal; ///< sum of weight * d d^T: xx yy zz
+  MutableVectors<float> scatter_mixed;    ///< yz xz xy
+};
+
 /** Sums of two fields over the data in reach; a datum weighs as much as its normal agrees with the query's, in shape
  * exp(-((1 - |cos|) normal_falloff)^2). */
 struct FieldSums {
@@ -173,6 +188,7 @@ struct KernelSet {
   void (*implicit_sums)(const Candidates&, const ImplicitSums&, std::size_t begin, std::size_t end);
   void (*moments)(const Candidates&, const Moments&, std::size_t begin, std::size_t end);
   void (*field_sums)(const Candidates&, const FieldSums&, std::size_t begin, std::size_t end);
+  void (*steered_moments)(const Candidates&, const SteeredMoments&, std::size_t begin, std::size_t end);
   void (*near_children)(const NearChildren&);
 };
 

@@ -20,6 +20,7 @@
 #include "near_children-inl.h"
 #include "projection-inl.h"
 #include "repulsion-inl.h"
+#include "steered_moments-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_gpf {
@@ -144,9 +145,23 @@ fieldSums(const Candidates& candidates, const FieldSums& a, std::size_t begin, s
     streamPairs<PlainFieldSum, float>(candidates, a, begin, end);
 }
 
+template <class D>
+using PlainSteeredMomentSum = SteeredMomentSum<D, false>;
+template <class D>
+using WeightedSteeredMomentSum = SteeredMomentSum<D, true>;
+
+static void
+steeredMoments(const Candidates& candidates, const SteeredMoments& a, std::size_t begin, std::size_t end)
+{
+  if (a.data_weight)
+    streamPairs<WeightedSteeredMomentSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<PlainSteeredMomentSum, float>(candidates, a, begin, end);
+}
+
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
                               repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
-                              moments,             fieldSums,            nearChildren};
+                              moments,             fieldSums,            steeredMoments,    nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels
