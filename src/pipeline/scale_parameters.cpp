@@ -9,8 +9,9 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Rounds and angle of the bilateral normal filter at the fine scale, at most. */
-constexpr unsigned kFineRounds = 3;
+/** Rounds and angle of the bilateral normal filter and iterations of GPF at the fine scale, at most. More of them would turn small bosses
+ * into slopes; what noise is left, the steered fit takes away. */
+constexpr unsigned kFineRounds = 2, kFineIterations = 4;
 constexpr double kFineAngle = 25.0;
 
 } // namespace
@@ -31,8 +32,8 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
   note(estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale));
   if (filter_scale == FilterScale::Fine) {
     note(estimateParameters(scale, parameters.steered));
-    // Further rounds would turn small bosses into slopes.
     parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
+    parameters.gpf.maximum_iterations = std::min(parameters.gpf.maximum_iterations, kFineIterations);
     parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
   }
   return parameters;
