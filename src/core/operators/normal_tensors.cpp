@@ -7,6 +7,10 @@
 #include "../sorted_points.h"
 
 #include <algorithm>
+#include <array>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 
 namespace pcl_gpf {
 
@@ -36,6 +40,16 @@ meanCount(PointsView points, const ClusterTree& tree, double radius)
       }
   }
   return balls > 0 ? static_cast<double>(held) / static_cast<double>(balls) : 0.0;
+}
+
+float
+leastEigenvalue(const NormalTensor& t)
+{
+  Eigen::Matrix3d m;
+  m << t.xx, t.xy, t.xz, t.xy, t.yy, t.yz, t.xz, t.yz, t.zz;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(m, Eigen::EigenvaluesOnly);
+  return static_cast<float>(std::max(0.0, solver.eigenvalues()[0]));
 }
 
 /** Sums of two fields over the balls about the probes. */
@@ -93,7 +107,8 @@ NormalTensors::NormalTensors(PointsView points, NormalsView normals, double radi
   for (std::size_t k = 0; k < places.size(); ++k) {
     const float scale = 1.0f / std::max(1.0f, sums[0][0][k]);
     tensors_[k] = {sums[0][2][k] * scale, sums[0][3][k] * scale, sums[1][2][k] * scale,
-                   sums[1][3][k] * scale, sums[2][2][k] * scale, sums[2][3][k] * scale};
+                   sums[1][3][k] * scale, sums[2][2][k] * scale, sums[2][3][k] * scale, 0.0f};
+    tensors_[k].least = leastEigenvalue(tensors_[k]);
   }
 }
 

@@ -12,6 +12,7 @@ namespace pcl_gpf {
 /** Mean of n n^T, trace 1. */
 struct NormalTensor {
   float xx = 0, yy = 0, zz = 0, yz = 0, xz = 0, xy = 0;
+  float least = 0; ///< smallest eigenvalue, 0 .. 1/3: how much the surface bends in the direction in which it bends least
 };
 
 /** Means of n n^T over balls, for every point of a sorted cloud; neighbours on the curve share one where balls hold many points. */

@@ -104,10 +104,14 @@ fitPlane(const Sums& s, std::size_t k, const Eigen::Vector3d& side, Eigen::Vecto
   return true;
 }
 
-/** The ellipsoids of the queries as matrices. */
+/** The ellipsoids of the queries as matrices, and the balls that hold them. */
 struct Metrics {
   SortedVectors<float> diagonal, mixed;
+  AlignedArray<float> reach_sq;
 };
+
+/** Rounding of the least eigenvalue must not cost a pair. */
+constexpr float kReachSlack = 1.01f;
 
 Metrics
 metricsOf(const SteeredFitParameters& p, const NormalTensors& tensors, const std::vector<std::uint32_t>& queries)
@@ -115,7 +119,7 @@ metricsOf(const SteeredFitParameters& p, const NormalTensors& tensors, const std
   const double longest = p.longest_share * p.radius;
   const auto round = static_cast<float>(1.0 / (longest * longest));
   const auto bend = static_cast<float>(p.bending_weight / (p.radius * p.radius));
-  Metrics metrics{SortedVectors<float>(queries.size()), SortedVectors<float>(queries.size())};
+  Metrics metrics{SortedVectors<float>(queries.size()), SortedVectors<float>(queries.size()), AlignedArray<float>(queries.size() + kQueryBlock)};
   for (std::size_t q = 0; q < queries.size(); ++q) {
     const NormalTensor& t = tensors.of(queries[q]);
     metrics.diagonal.x[q] = round + bend * t.xx;
@@ -124,6 +128,7 @@ metricsOf(const SteeredFitParameters& p, const NormalTensors& tensors, const std
     metrics.mixed.x[q] = bend * t.yz;
     metrics.mixed.y[q] = bend * t.xz;
     metrics.mixed.z[q] = bend * t.xy;
+    metrics.reach_sq[q] = kReachSlack / (round + bend * t.least);
   }
   return metrics;
 }
@@ -151,16 +156,15 @@ public:
     const SortedVectors<float> points = gather<float>(guide_.sorted(), {}, queries, kFarAway, threads_);
     const NormalTensors tensors(guide_.sorted(), sortedNormals(), p_.direction_radius, threads_);
     const Metrics metrics = metricsOf(p_, tensors, queries);
-    const double longest = p_.longest_share * p_.radius;
     const Neighborhoods near =
-        findNeighborhoods(data_.merged.empty() ? guide_.tree() : data_.merged.tree, {points.x.data(), points.y.data(), points.z.data(), queries.size()},
-                          longest, threads_);
+        findNeighborhoods(data_.merged.empty() ? guide_.tree() : data_.merged.tree,
+                          {points.x.data(), points.y.data(), points.z.data(), queries.size()}, metrics.reach_sq.data(), threads_);
     const kernels::Candidates candidates = candidatesOf(near);
     kernels::SteeredMoments a;
     a.queries = points.vectors();
     const PointsView sorted = guide_.sorted();
     a.data = data_.merged.empty() ? kernels::Vectors<float>{sorted.x, sorted.y, sorted.z} : data_.merged.positions.vectors();
-    a.radius.radius_sq = static_cast<float>(longest * longest);
+    a.radius.per_query = metrics.reach_sq.data();
     a.metric_diagonal = metrics.diagonal.vectors();
     a.metric_mixed = metrics.mixed.vectors();
     a.residuals = data_.residuals.vectors();
