@@ -325,6 +325,58 @@ private:
   static constexpr float kFalloff = 7.5f;
 };
 
+/** A metric for each query, made of its normal: flat across, round along. */
+struct SteeredCase : KernelCase<float> {
+  bool weighted = false;
+
+  std::string name() const { return std::string("steered moments") + (weighted ? " weighted" : ""); }
+  std::size_t channels() const { return 13; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    SortedVectors<float> diagonal(in.query_count), mixed(in.query_count);
+    for (std::size_t q = 0; q < in.query_count; ++q) {
+      const float x = in.query_normals.x[q], y = in.query_normals.y[q], z = in.query_normals.z[q];
+      diagonal.x[q] = kRound + kAcross * x * x, diagonal.y[q] = kRound + kAcross * y * y, diagonal.z[q] = kRound + kAcross * z * z;
+      mixed.x[q] = kAcross * y * z, mixed.y[q] = kAcross * x * z, mixed.z[q] = kAcross * x * y;
+    }
+    kernels::SteeredMoments a;
+    a.queries = in.queries.vectors();
+    a.data = in.data.vectors();
+    a.radius = radius(in);
+    a.metric_diagonal = diagonal.vectors();
+    a.metric_mixed = mixed.vectors();
+    a.residuals = in.data_normals.vectors();
+    a.data_weight = weighted ? in.weight.data() : nullptr;
+    a.weight_sum = out.channel(0);
+    a.mean = out.vectors(1);
+    a.residual = out.vectors(4);
+    a.scatter_diagonal = out.vectors(7);
+    a.scatter_mixed = out.vectors(10);
+    set.steered_moments(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const auto& d = p.d;
+    const double across = Pair::dot(d, p.query_normal);
+    const double share = std::max(0.0, 1 - kRound * p.r_sq - kAcross * across * across);
+    const double weight = share * share * (weighted ? p.weight : 1.0);
+    const double scale = 16.0; // of the form, whose terms cancel
+    std::vector<Term> sums = {{weight, scale}};
+    for (const double component : d)
+      sums.push_back({weight * component, scale * std::abs(component)});
+    for (const double component : p.normal)
+      sums.push_back({weight * component, scale});
+    for (const double product : {d[0] * d[0], d[1] * d[1], d[2] * d[2], d[1] * d[2], d[0] * d[2], d[0] * d[1]})
+      sums.push_back({weight * product, scale * std::abs(product)});
+    return sums;
+  }
+
+private:
+  static constexpr float kRound = 7.0f, kAcross = 30.0f;
+};
+
 /** The sums of a RIMLS fit; the radius is the datum's. */
 struct ImplicitCase {
   bool robust = false;
@@ -424,6 +476,7 @@ forEveryCase(const Visit& visit)
           visit(BilateralCase{{per_query}, sign_invariant, weighted});
         visit(MomentsCase{{per_query}, weighted});
         visit(FieldCase{{per_query}, weighted});
+        visit(SteeredCase{{per_query}, weighted});
       }
       visit(ImplicitCase{per_query}); // plain and robust
     }
