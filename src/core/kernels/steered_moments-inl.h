@@ -20,9 +20,10 @@ struct SteeredMomentSum {
   const SteeredMoments& a;
   D d;
   std::size_t first;
-  Lanes3<D> query, metric_diagonal, metric_mixed;
+  Lanes3<D> query, query_normal, metric_diagonal, metric_mixed;
   V radius_sq, weight_sum;
-  Lanes3<D> mean, residual, diagonal, mixed;
+  Bell<D> symmetry_bell;
+  Lanes3<D> mean, shift, diagonal, mixed;
 
   HWY_INLINE
   SteeredMomentSum(const SteeredMoments& arguments, D tag, std::size_t q)
@@ -30,12 +31,14 @@ struct SteeredMomentSum {
   , d(tag)
   , first(q)
   , query(loadQueries(tag, arguments.queries, q))
+  , query_normal(loadQueries(tag, arguments.query_normals, q))
   , metric_diagonal(loadQueries(tag, arguments.metric_diagonal, q))
   , metric_mixed(loadQueries(tag, arguments.metric_mixed, q))
   , radius_sq(loadRadiusSq(tag, arguments.radius, q))
   , weight_sum(hn::Zero(tag))
+  , symmetry_bell(tag, 0.5, arguments.symmetry_falloff)
   , mean(zero3(tag))
-  , residual(zero3(tag))
+  , shift(zero3(tag))
   , diagonal(zero3(tag))
   , mixed(zero3(tag))
   {
@@ -62,7 +65,18 @@ struct SteeredMomentSum {
     mean = {hn::Add(mean.x, w.x), hn::Add(mean.y, w.y), hn::Add(mean.z, w.z)};
     diagonal = {mulAdd(w.x, o.x, diagonal.x), mulAdd(w.y, o.y, diagonal.y), mulAdd(w.z, o.z, diagonal.z)};
     mixed = {mulAdd(w.y, o.z, mixed.x), mulAdd(w.x, o.z, mixed.y), mulAdd(w.x, o.y, mixed.z)};
-    addScaled<D>(residual, weight, loadDatum(d, a.residuals, datum));
+    addScaled<D>(shift, weight, loadDatum(d, a.residuals, datum));
+    addHeight(weight, o, loadDatum(d, a.data_normals, datum));
+  }
+
+  /** On a curved surface the neighbours' planes lie as far outside as the neighbours lie inside: the halves cancel. */
+  HWY_INLINE void
+  addHeight(V weight, const Lanes3<D>& o, const Lanes3<D>& normal)
+  {
+    const V deviation = hn::Sub(hn::Set(d, 1.0f), hn::Abs(dot<D>(normal, query_normal)));
+    const V planes = hn::Mul(weight, symmetry_bell(d, hn::Mul(deviation, deviation)));
+    addScaled<D>(shift, hn::Sub(weight, planes), o);
+    addScaled<D>(shift, hn::Mul(planes, dot<D>(o, normal)), normal);
   }
 
   HWY_INLINE void
@@ -71,7 +85,7 @@ struct SteeredMomentSum {
     const std::size_t place = first - a.first_output;
     hn::StoreU(weight_sum, d, a.weight_sum + place);
     storeQueries(d, a.mean, place, mean);
-    storeQueries(d, a.residual, place, residual);
+    storeQueries(d, a.shift, place, shift);
     storeQueries(d, a.scatter_diagonal, place, diagonal);
     storeQueries(d, a.scatter_mixed, place, mixed);
   }

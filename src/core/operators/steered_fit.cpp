@@ -23,6 +23,9 @@ constexpr float kFewestData = 4.0f;
 /** Second eigenvalue below this share of the largest: a line, no plane is better than another. */
 constexpr double kLineRatio = 1e-4;
 
+/** Normals that deviate by more belong to other faces: their planes say nothing about a point's height. */
+constexpr double kSymmetryAngle = 45.0 * 3.14159265358979323846 / 180.0;
+
 /** The data of a pass: the guide, or means of it, with what leads from it back to the noisy points. */
 struct Data {
   SortedVectors<float> residuals;
@@ -73,7 +76,7 @@ dataOf(const SteeredFitParameters& p, PointsView noisy, const PointIndex& guide,
 struct Sums {
   static constexpr std::size_t kSize = kBlocksPerTask * kQueryBlock;
   AlignedArray<float> weight = AlignedArray<float>(kSize);
-  SortedVectors<float> mean{kSize}, residual{kSize}, diagonal{kSize}, mixed{kSize};
+  SortedVectors<float> mean{kSize}, shift{kSize}, diagonal{kSize}, mixed{kSize};
 };
 
 /** The point's move onto the fitted plane of noisy heights, and that plane's normal on the side of `side`.
@@ -100,7 +103,7 @@ fitPlane(const Sums& s, std::size_t k, const Eigen::Vector3d& side, Eigen::Vecto
   normal = solver.eigenvectors().col(0).normalized();
   if (normal.dot(side) < 0.0)
     normal = -normal;
-  move = normal.dot(mean + Eigen::Vector3d(s.residual.x[k], s.residual.y[k], s.residual.z[k]) / weight) * normal;
+  move = normal.dot(Eigen::Vector3d(s.shift.x[k], s.shift.y[k], s.shift.z[k])) / weight * normal;
   return true;
 }
 
@@ -154,6 +157,7 @@ public:
       if (wanted[guide_.order()[k]] != 0)
         queries.push_back(static_cast<std::uint32_t>(k));
     const SortedVectors<float> points = gather<float>(guide_.sorted(), {}, queries, kFarAway, threads_);
+    const SortedVectors<float> query_normals = gather<float>(sortedNormals(), {}, queries, 0.0f, threads_);
     const NormalTensors tensors(guide_.sorted(), sortedNormals(), p_.direction_radius, threads_);
     const Metrics metrics = metricsOf(p_, tensors, queries);
     const Neighborhoods near =
@@ -168,6 +172,9 @@ public:
     a.metric_diagonal = metrics.diagonal.vectors();
     a.metric_mixed = metrics.mixed.vectors();
     a.residuals = data_.residuals.vectors();
+    a.query_normals = query_normals.vectors();
+    a.data_normals = data_.merged.empty() ? sorted_normals_.vectors() : data_.merged.normals.vectors();
+    a.symmetry_falloff = static_cast<float>(1.0 / (1.0 - std::cos(kSymmetryAngle)));
     a.data_weight = data_.merged.empty() ? nullptr : data_.merged.weights.data();
     parallelBlocks(blockCount(queries.size()), kBlocksPerTask, threads_,
                    [&](std::size_t begin, std::size_t end) { fitBlocks(candidates, a, queries, begin, end); });
@@ -184,7 +191,7 @@ private:
     a.first_output = begin * kQueryBlock;
     a.weight_sum = sums.weight.data();
     a.mean = sums.mean.vectors();
-    a.residual = sums.residual.vectors();
+    a.shift = sums.shift.vectors();
     a.scatter_diagonal = sums.diagonal.vectors();
     a.scatter_mixed = sums.mixed.vectors();
     kernels::active().steered_moments(candidates, a, begin, end);

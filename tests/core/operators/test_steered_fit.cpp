@@ -115,7 +115,7 @@ literalFit(const Scene& s, const SteeredFitParameters& p, std::size_t i, Eigen::
   const Eigen::Matrix3d metric =
       Eigen::Matrix3d::Identity() / (longest * longest) + p.bending_weight / (p.radius * p.radius) * bend / count;
   double weight_sum = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero(), noisy_mean = mean;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero(), shift = mean;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (std::size_t j = 0; j < s.size(); ++j) {
     const Eigen::Vector3d d = at(s.guide, j) - at(s.guide, i);
@@ -125,7 +125,10 @@ literalFit(const Scene& s, const SteeredFitParameters& p, std::size_t i, Eigen::
     const double w = share * share;
     weight_sum += w;
     mean += w * d;
-    noisy_mean += w * (at(s.noisy, j) - at(s.guide, i));
+    const Eigen::Vector3d n = at(s.normals, j);
+    const double u = (1 - std::abs(n.dot(at(s.normals, i)))) / (1 - std::sqrt(0.5));
+    const double planes = u < 2 ? 0.5 * std::pow(1 - u * u / 4, 4) : 0;
+    shift += w * ((1 - planes) * d + planes * d.dot(n) * n + at(s.noisy, j) - at(s.guide, j));
     scatter += w * d * d.transpose();
   }
   mean /= weight_sum;
@@ -133,7 +136,7 @@ literalFit(const Scene& s, const SteeredFitParameters& p, std::size_t i, Eigen::
   normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
   if (normal.dot(at(s.normals, i)) < 0)
     normal = -normal;
-  return at(s.guide, i) + normal.dot(noisy_mean / weight_sum) * normal;
+  return at(s.guide, i) + normal.dot(shift / weight_sum) * normal;
 }
 
 double
@@ -186,6 +189,25 @@ TEST(SteeredFit, ReachesAlongARidgeWithoutRoundingIt)
   const double left = meanDistanceToRoof(steered.guide);
   EXPECT_LT(left, 0.5 * meanDistanceToRoof(scene.guide));
   EXPECT_LT(left, 0.9 * meanDistanceToRoof(round.guide));
+}
+
+TEST(SteeredFit, LeavesACurvedSurfaceWhereItIs)
+{
+  const auto bowl = [](double x, double y) {
+    return std::array<double, 3>{0.5 * (x * x + y * y), x, y}; // curvature 1, or a little less
+  };
+  const Scene scene(20000, 0.0, bowl);
+  Scene fitted = scene, clean = scene;
+  fitSteeredPlanes(parameters(0.05), clean.guide.view(), all(scene), fitted.guide.view(), fitted.normals.view());
+  double signed_sum = 0;
+  std::size_t inner = 0;
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    if (scene.guide.x[i] > 0.2f && scene.guide.x[i] < 0.8f && scene.guide.y[i] > 0.2f && scene.guide.y[i] < 0.8f) {
+      signed_sum += fitted.guide.z[i] - scene.guide.z[i];
+      ++inner;
+    }
+  // Means of heights over balls of radius 0.05 alone would lift it by 0.05^2 / 8 = 3e-4.
+  EXPECT_LT(std::abs(signed_sum / static_cast<double>(inner)), 3e-5);
 }
 
 TEST(SteeredFit, TouchesOnlyTheGivenPlacesAndKeepsTheSideOfNormals)

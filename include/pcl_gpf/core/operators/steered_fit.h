@@ -32,7 +32,8 @@ validate(const SteeredFitParameters& parameters);
  * bends: T is n n^T on a plane, and has no part along a straight edge. The neighbourhood of the point is the ellipsoid
  * d^T (I / (longest_share radius)^2 + bending_weight T / radius^2) d < 1 of the guide: thin along normals, long where nothing bends. A plane
  * is fitted to the guide in it, weights (1 - d^T A d)^2, and the point moves along that plane's normal to the mean height of the *noisy*
- * points, whose noise is therefore averaged once, over many points, without the clipping that a ball about a noisy point has.
+ * points, whose noise is therefore averaged once, over many points, without the clipping that a ball about a noisy point has. Heights are
+ * taken half along the point's normal, half as the neighbours' planes say, so that curved surfaces stay where they are.
  * (Kernels steered by a structure tensor: Takeda, Farsiu, Milanfar 2007; normal tensors: Medioni et al.)
  *
  * \param[in] noisy N positions that the guide was filtered from
