@@ -13,6 +13,8 @@ namespace {
  * into slopes; what noise is left, the steered fit takes away. */
 constexpr unsigned kFineRounds = 2, kFineIterations = 4;
 constexpr double kFineAngle = 25.0;
+/** Noise in spacings from which planes are steered. Below, a narrow ball holds a surface, and one that follows edges only holds more. */
+constexpr double kSteeredFrom = 0.75;
 
 } // namespace
 
@@ -31,7 +33,10 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
   };
   note(estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale));
   if (filter_scale == FilterScale::Fine) {
-    note(estimateParameters(scale, parameters.steered));
+    if (parameters.steered.radius == 0.0 && scale.noise < kSteeredFrom * scale.spacing)
+      parameters.steered.passes = 0;
+    if (parameters.steered.passes > 0)
+      note(estimateParameters(scale, parameters.steered));
     parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
     parameters.gpf.maximum_iterations = std::min(parameters.gpf.maximum_iterations, kFineIterations);
     parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
