@@ -69,7 +69,10 @@ toLocal(DenoiseParameters p, const LocalFrame& frame)
   p.normals.radius = frame.lengthToLocal(p.normals.radius);
   p.bilateral.radius = frame.lengthToLocal(p.bilateral.radius);
   p.gpf.support_radius = frame.lengthToLocal(p.gpf.support_radius);
-  p.normals.number_of_threads = p.bilateral.number_of_threads = p.gpf.number_of_threads = p.number_of_threads;
+  p.steered.radius = frame.lengthToLocal(p.steered.radius);
+  p.steered.direction_radius = frame.lengthToLocal(p.steered.direction_radius);
+  p.normals.number_of_threads = p.bilateral.number_of_threads = p.gpf.number_of_threads = p.steered.number_of_threads =
+      p.number_of_threads;
   return p;
 }
 
@@ -183,9 +186,12 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
         lostDetail({measured.noise, measured.spacing, 0.5 * fine.gpf.support_radius, 0.5 * p.gpf.support_radius, parameters.number_of_threads},
                    packed, cloud);
     result.seconds_filter += watch.lap();
-    if (!places.empty())
+    if (!places.empty()) {
       replaceAt(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
-    watch.lap();
+      watch.lap();
+      steer(fine.steered, packed, places, cloud);
+      result.seconds_filter += watch.lap();
+    }
     cloud.fine.assign(packed.rows.size(), 0);
     for (const std::uint32_t k : places)
       cloud.fine[k] = 1;
@@ -205,6 +211,7 @@ validate(const DenoiseParameters& parameters)
   validate(parameters.gpf);
   validate(parameters.bilateral);
   validate(parameters.normals);
+  validate(parameters.steered);
   if (!(parameters.max_move >= 0.0))
     throw InvalidParameter("max_move must be >= 0, 0 = estimated");
   if (!(parameters.strength >= 0.5 && parameters.strength <= 2.0))

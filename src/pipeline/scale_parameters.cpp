@@ -10,9 +10,12 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Rounds and angle of the bilateral normal filter at the fine scale, at most. */
-constexpr unsigned kFineRounds = 3;
+/** Rounds and angle of the bilateral normal filter and iterations of GPF at the fine scale, at most. More of them would turn small bosses
+ * into slopes; what noise is left, the steered fit takes away. */
+constexpr unsigned kFineRounds = 2, kFineIterations = 4;
 constexpr double kFineAngle = 25.0;
+/** Noise in spacings from which planes are steered. Below, a narrow ball holds a surface, and one that follows edges only holds more. */
+constexpr double kSteeredFrom = 0.75;
 
 } // namespace
 
@@ -26,15 +29,23 @@ DenoiseParameters
 parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,
              DenoiseResult& result)
 {
-  for (ParameterOrigin& origin : estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale)) {
-    origin.value = frame.lengthToWorld(origin.value);
-    origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
-    if (origin.reason.find("noise") != std::string::npos)
-      origin.reason += strengthNote(parameters.strength);
-    result.parameters.push_back(std::move(origin));
-  }
-  if (filter_scale == FilterScale::Fine) { // further rounds would turn small bosses into slopes
+  const auto note = [&](std::vector<ParameterOrigin> origins) {
+    for (ParameterOrigin& origin : origins) {
+      origin.value = frame.lengthToWorld(origin.value);
+      origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
+      if (origin.reason.find("noise") != std::string::npos)
+        origin.reason += strengthNote(parameters.strength);
+      result.parameters.push_back(std::move(origin));
+    }
+  };
+  note(estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale));
+  if (filter_scale == FilterScale::Fine) {
+    if (parameters.steered.radius == 0.0 && scale.noise < kSteeredFrom * scale.spacing)
+      parameters.steered.passes = 0;
+    if (parameters.steered.passes > 0)
+      note(estimateParameters(scale, parameters.steered));
     parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
+    parameters.gpf.maximum_iterations = std::min(parameters.gpf.maximum_iterations, kFineIterations);
     parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
   }
   return parameters;

@@ -2,9 +2,25 @@
 #include "two_scales.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace pcl_gpf {
+
+namespace {
+
+/** Where the filter put the sorted points. */
+SoaBuffer
+movedPoints(PointsView points, const SoaBuffer& displacements)
+{
+  SoaBuffer positions(points.size);
+  for (std::size_t k = 0; k < points.size; ++k) {
+    positions.x[k] = points.x[k] + displacements.x[k];
+    positions.y[k] = points.y[k] + displacements.y[k];
+    positions.z[k] = points.z[k] + displacements.z[k];
+  }
+  return positions;
+}
+
+} // namespace
 
 bool
 filtersTwoScales(const DenoiseParameters& p)
@@ -17,20 +33,27 @@ filtersTwoScales(const DenoiseParameters& p)
 std::vector<std::uint32_t>
 lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, const FilteredCloud& coarse)
 {
-  const PointsView points = packed.index->sorted();
-  SoaBuffer positions(points.size);
-  for (std::size_t k = 0; k < points.size; ++k) {
-    positions.x[k] = points.x[k] + coarse.displacements.x[k];
-    positions.y[k] = points.y[k] + coarse.displacements.y[k];
-    positions.z[k] = points.z[k] + coarse.displacements.z[k];
-  }
-  const std::vector<std::uint8_t> fine = selectFineScale(selection, *packed.index, std::move(positions), coarse.normals);
+  const std::vector<std::uint8_t> fine =
+      selectFineScale(selection, *packed.index, movedPoints(packed.index->sorted(), coarse.displacements), coarse.normals);
   std::vector<std::uint32_t> places;
   places.reserve(static_cast<std::size_t>(std::count(fine.begin(), fine.end(), 1)));
   for (std::size_t k = 0; k < fine.size(); ++k)
     if (fine[k] != 0)
       places.push_back(static_cast<std::uint32_t>(k));
   return places;
+}
+
+void
+steer(const SteeredFitParameters& parameters, const Packed& packed, const std::vector<std::uint32_t>& places, FilteredCloud& cloud)
+{
+  const PointsView points = packed.index->sorted();
+  SoaBuffer positions = movedPoints(points, cloud.displacements);
+  fitSteeredPlanes(parameters, points, places, positions.view(), cloud.normals.view());
+  for (const std::uint32_t k : places) {
+    cloud.displacements.x[k] = positions.x[k] - points.x[k];
+    cloud.displacements.y[k] = positions.y[k] - points.y[k];
+    cloud.displacements.z[k] = positions.z[k] - points.z[k];
+  }
 }
 
 void

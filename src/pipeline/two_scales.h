@@ -4,6 +4,7 @@
 #include "packed_cloud.h"
 
 #include <pcl_gpf/core/operators/scale_selection.h>
+#include <pcl_gpf/core/operators/steered_fit.h>
 
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,10 @@ filtersTwoScales(const DenoiseParameters& parameters);
 /** The sorted points at which the coarse result is to be replaced, ascending. */
 std::vector<std::uint32_t>
 lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, const FilteredCloud& coarse);
+
+/** Fits steered planes to the filtered cloud at `places` (fitSteeredPlanes()). \param[in] parameters normalised frame */
+void
+steer(const SteeredFitParameters& parameters, const Packed& packed, const std::vector<std::uint32_t>& places, FilteredCloud& cloud);
 
 /** Puts the results at `places` into the whole. */
 void

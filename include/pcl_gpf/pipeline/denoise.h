@@ -7,6 +7,7 @@
 #include <pcl_gpf/core/operators/bilateral_normals.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/operators/steered_fit.h>
 
 #include <array>
 #include <cstddef>
@@ -34,6 +35,9 @@ struct DenoiseParameters {
    * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals (no repulsion, no gap filling);
    * otherwise one scale. */
   bool two_scales = true;
+
+  /** Planes over neighbourhoods that follow edges, fitted at the points that take the fine result; `passes` = 0: none. */
+  SteeredFitParameters steered;
 
   /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
    * stays as it is, and so do clouds of too few points (below 48, or a few hundred whose noise cannot be told from the shape).

@@ -14,9 +14,10 @@ namespace pcl_gpf {
 
 namespace {
 
-/** A length as multiples of the noise and of the spacing, which add up like independent errors. */
+/** A length as multiples of the noise and of the spacing. */
 struct LengthRule {
   double noises, spacings;
+  bool larger = false; ///< about the larger of the two; else they add up like independent errors
 };
 struct ScaleRules {
   LengthRule normals, bilateral, support;
@@ -28,16 +29,19 @@ rulesOf(FilterScale filter_scale)
 {
   switch (filter_scale) {
   case FilterScale::Coarse: return {{4.3, 3.1}, {8.8, 6.3}, {11.8, 8.0}};
-  case FilterScale::Fine: return {{1.8, 2.8}, {2.8, 3.2}, {4.3, 6.0}};
+  case FilterScale::Fine: return {{2.1, 3.2, true}, {3.05, 4.0, true}, {4.75, 7.0, true}};
   default: return {{4.0, 3.0}, {8.0, 6.0}, {11.0, 8.0}};
   }
 }
 
+constexpr LengthRule kSteeredRadius = {2.45, 4.0, true}, kDirectionRadius = {4.0, 6.0};
+
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
 {
-  return {name, std::hypot(rule.noises * scale.noise, rule.spacings * scale.spacing), "estimated",
-          toText(rule.noises) + " x noise (+) " + toText(rule.spacings) + " x spacing"};
+  const double noises = rule.noises * scale.noise, spacings = rule.spacings * scale.spacing;
+  const double length = rule.larger ? std::sqrt(std::hypot(noises * noises, spacings * spacings)) : std::hypot(noises, spacings);
+  return {name, length, "estimated", toText(rule.noises) + " x noise " + (rule.larger ? "(max) " : "(+) ") + toText(rule.spacings) + " x spacing"};
 }
 
 void
@@ -99,6 +103,15 @@ estimateParameters(const CloudScale& scale, PlaneNormalsParameters& normals, Bil
     fill(gpf.support_radius, {"gpf.support_radius", 8.0 * scale.h0, "preset", "8 x h0, within the paper's 3 .. 12"}, origins);
   else
     fill(gpf.support_radius, lengthFromScale("gpf.support_radius", scale, rules.support), origins);
+  return origins;
+}
+
+std::vector<ParameterOrigin>
+estimateParameters(const CloudScale& scale, SteeredFitParameters& steered)
+{
+  std::vector<ParameterOrigin> origins;
+  fill(steered.radius, lengthFromScale("steered.radius", scale, kSteeredRadius), origins);
+  fill(steered.direction_radius, lengthFromScale("steered.direction_radius", scale, kDirectionRadius), origins);
   return origins;
 }
 

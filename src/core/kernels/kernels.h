@@ -130,6 +130,22 @@ struct Moments {
   MutableVectors<float> scatter_mixed;    ///< yz xz xy
 };
 
+/** Moments of the data d = datum - query with d^T A d < 1, A the query's own metric; weight (1 - d^T A d)^2. */
+struct SteeredMoments {
+  Vectors<float> queries, query_normals, data, data_normals;
+  Radius<float> radius;                   ///< of a ball about the query that holds the ellipsoid
+  Vectors<float> metric_diagonal, metric_mixed; ///< A of each query: xx yy zz, yz xz xy
+  Vectors<float> residuals;               ///< a vector of each datum, padded like the data
+  float symmetry_falloff = 0;             ///< 1 / (1 - cos angle) of the share s that the datum's own plane gets, at most one half
+  const float* data_weight = nullptr;     ///< null: all 1
+  std::size_t first_output = 0;           ///< query whose results go to the first place of the arrays below
+  float* weight_sum = nullptr;
+  MutableVectors<float> mean;             ///< sum of weight * d
+  MutableVectors<float> shift;            ///< sum of weight * ((1 - s) d + s (d.n) n + residual)
+  MutableVectors<float> scatter_diagonal; ///< sum of weight * d d^T: xx yy zz
+  MutableVectors<float> scatter_mixed;    ///< yz xz xy
+};
+
 /** Sums of two fields over the data in reach; a datum weighs as much as its normal agrees with the query's, in shape
  * exp(-((1 - |cos|) normal_falloff)^2). */
 struct FieldSums {
@@ -225,6 +241,7 @@ struct KernelSet {
   void (*side_sums)(const Candidates&, const SideSums&, std::size_t begin, std::size_t end);
   void (*widest_gaps)(const WidestGaps&);
   void (*better_gaps)(const BetterGaps&);
+  void (*steered_moments)(const Candidates&, const SteeredMoments&, std::size_t begin, std::size_t end);
   void (*near_children)(const NearChildren&);
 };
 

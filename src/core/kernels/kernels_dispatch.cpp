@@ -22,6 +22,7 @@
 #include "projection-inl.h"
 #include "repulsion-inl.h"
 #include "side_sums-inl.h"
+#include "steered_moments-inl.h"
 #include "widest_gaps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -161,10 +162,24 @@ sideSums(const Candidates& candidates, const SideSums& a, std::size_t begin, std
     streamPairs<OrientedSideSum, float>(candidates, a, begin, end);
 }
 
+template <class D>
+using PlainSteeredMomentSum = SteeredMomentSum<D, false>;
+template <class D>
+using WeightedSteeredMomentSum = SteeredMomentSum<D, true>;
+
+static void
+steeredMoments(const Candidates& candidates, const SteeredMoments& a, std::size_t begin, std::size_t end)
+{
+  if (a.data_weight)
+    streamPairs<WeightedSteeredMomentSum, float>(candidates, a, begin, end);
+  else
+    streamPairs<PlainSteeredMomentSum, float>(candidates, a, begin, end);
+}
+
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
                               repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
                               moments,             fieldSums,            sideSums,            widestGaps,
-                              betterGaps,          nearChildren};
+                              betterGaps,          steeredMoments,       nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

@@ -31,6 +31,7 @@ const Ablation kAblations[] = {
     {"no-bilateral", "normals of plane fits as they are", [](DenoiseParameters& p) { p.bilateral.iterations = 0; }},
     {"one-iteration", "", [](DenoiseParameters& p) { p.gpf.maximum_iterations = 1; }},
     {"one-scale", "the lengths of a filter that runs alone", [](DenoiseParameters& p) { p.two_scales = false; }},
+    {"no-steered-fit", "the fine scale as GPF leaves it", [](DenoiseParameters& p) { p.steered.passes = 0; }},
     {"no-limit", "moves of any length",
      [](DenoiseParameters& p) { p.max_move = std::numeric_limits<double>::infinity(); }},
     {"keep-outliers", "outliers stay among the data of the others",

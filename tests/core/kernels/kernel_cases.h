@@ -21,7 +21,7 @@ struct Term {
 
 /** \brief One pair in double: d = datum - query. */
 struct Pair {
-  std::array<double, 3> d, query_normal, normal;
+  std::array<double, 3> d, query_normal, normal, datum;
   double r_sq, radius_sq, weight, density, query_radius_sq;
 
   static double
@@ -40,6 +40,7 @@ pairOf(const KernelInput<Real>& in, std::size_t q, std::size_t j, double radius_
   Pair pair;
   pair.d = {static_cast<double>(in.data.x[j]) - in.queries.x[q], static_cast<double>(in.data.y[j]) - in.queries.y[q],
             static_cast<double>(in.data.z[j]) - in.queries.z[q]};
+  pair.datum = {in.data.x[j], in.data.y[j], in.data.z[j]};
   pair.query_normal = {in.query_normals.x[q], in.query_normals.y[q], in.query_normals.z[q]};
   pair.normal = {in.data_normals.x[j], in.data_normals.y[j], in.data_normals.z[j]};
   pair.r_sq = Pair::dot(pair.d, pair.d);
@@ -325,6 +326,64 @@ private:
   static constexpr float kFalloff = 7.5f;
 };
 
+/** A metric for each query, made of its normal: flat across, round along. */
+struct SteeredCase : KernelCase<float> {
+  bool weighted = false;
+
+  std::string name() const { return std::string("steered moments") + (weighted ? " weighted" : ""); }
+  std::size_t channels() const { return 13; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    SortedVectors<float> diagonal(in.query_count), mixed(in.query_count);
+    for (std::size_t q = 0; q < in.query_count; ++q) {
+      const float x = in.query_normals.x[q], y = in.query_normals.y[q], z = in.query_normals.z[q];
+      diagonal.x[q] = kRound + kAcross * x * x, diagonal.y[q] = kRound + kAcross * y * y, diagonal.z[q] = kRound + kAcross * z * z;
+      mixed.x[q] = kAcross * y * z, mixed.y[q] = kAcross * x * z, mixed.z[q] = kAcross * x * y;
+    }
+    kernels::SteeredMoments a;
+    a.queries = in.queries.vectors();
+    a.data = in.data.vectors();
+    a.radius = radius(in);
+    a.metric_diagonal = diagonal.vectors();
+    a.metric_mixed = mixed.vectors();
+    a.residuals = in.data.vectors();
+    a.data_weight = weighted ? in.weight.data() : nullptr;
+    a.weight_sum = out.channel(0);
+    a.mean = out.vectors(1);
+    a.query_normals = in.query_normals.vectors();
+    a.data_normals = in.data_normals.vectors();
+    a.symmetry_falloff = kFalloff;
+    a.shift = out.vectors(4);
+    a.scatter_diagonal = out.vectors(7);
+    a.scatter_mixed = out.vectors(10);
+    set.steered_moments(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    const auto& d = p.d;
+    const double across = Pair::dot(d, p.query_normal);
+    const double share = std::max(0.0, 1 - kRound * p.r_sq - kAcross * across * across);
+    const double weight = share * share * (weighted ? p.weight : 1.0);
+    const double scale = 16.0; // of the form, whose terms cancel
+    std::vector<Term> sums = {{weight, scale}};
+    for (const double component : d)
+      sums.push_back({weight * component, scale * std::abs(component)});
+    const double planes = 0.5 * bell((1 - std::abs(p.cosine())) * kFalloff);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double height = (1 - planes) * d[axis] + planes * p.height() * p.normal[axis];
+      sums.push_back({weight * (height + p.datum[axis]), scale * (std::abs(height) + std::abs(p.datum[axis]) + 1)});
+    }
+    for (const double product : {d[0] * d[0], d[1] * d[1], d[2] * d[2], d[1] * d[2], d[0] * d[2], d[0] * d[1]})
+      sums.push_back({weight * product, scale * std::abs(product)});
+    return sums;
+  }
+
+private:
+  static constexpr float kRound = 7.0f, kAcross = 30.0f, kFalloff = 7.5f;
+};
+
 /** The sums of a RIMLS fit; the radius is the datum's. */
 struct ImplicitCase {
   bool robust = false;
@@ -424,6 +483,7 @@ forEveryCase(const Visit& visit)
           visit(BilateralCase{{per_query}, sign_invariant, weighted});
         visit(MomentsCase{{per_query}, weighted});
         visit(FieldCase{{per_query}, weighted});
+        visit(SteeredCase{{per_query}, weighted});
       }
       visit(ImplicitCase{per_query}); // plain and robust
     }

@@ -5,6 +5,7 @@
 #include <pcl_gpf/core/operators/bilateral_normals.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/operators/steered_fit.h>
 #include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
 
@@ -51,5 +52,9 @@ estimateParameters(const CloudScale& scale,
                    BilateralNormalsParameters& bilateral,
                    GPFParameters& gpf,
                    FilterScale filter_scale = FilterScale::Single);
+
+/** \brief The same for the fit that follows the fine scale. */
+PCL_GPF_CORE_EXPORT std::vector<ParameterOrigin>
+estimateParameters(const CloudScale& scale, SteeredFitParameters& steered);
 
 } // namespace pcl_gpf
