@@ -25,26 +25,25 @@ constexpr double kMostProbes = 256.0;
 constexpr double kFaceAngle = 30.0 * kPi / 180.0;
 /** Least agreement of normals in a patch on one face. */
 constexpr float kOneFace = 0.97f;
-/** Heights beyond this many noises are outliers and count as this. */
+/** Heights beyond this many noises of their surroundings are outliers and count as this. */
 constexpr double kOutlier = 4.0;
-/** Mean square of heights, in squares of the noise, which noise alone does not reach. */
-constexpr double kMerged = 3.0;
+/** Points along the curve whose median height tells the noise of the surroundings, and median of normal noise to deviation. */
+constexpr std::size_t kSurroundings = 128;
+constexpr double kMedianToDeviation = 1.4826;
+/** Mean square of heights, in squares of the noise, from which on they may be those of two sheets. */
+constexpr double kSpreadOut = 3.0;
+/** Mean height, in roots of the mean square, of two sheets: 0.80 for noise however strong, 1 for sheets without noise. */
+constexpr double kTwoSheets = 0.85;
 /** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p of a noisy estimate; between them by
  * measurement. */
 constexpr double kVariances = 1.5;
 /** Standard deviation of a filtered point in units of noise / sqrt(data in the ball). */
 constexpr double kSpread = 1.15;
 
-/** Every stride-th of the sorted points, with results for each. */
+/** Every stride-th of the sorted points. */
 struct Probes {
   Probes(PointsView positions, NormalsView directions, std::size_t stride)
-  : size((positions.size + stride - 1) / stride)
-  , points(size, kFarAway)
-  , normals(size)
-  , count(size + kQueryBlock)
-  , weight(size + kQueryBlock)
-  , first(size + kQueryBlock)
-  , second(size + kQueryBlock)
+  : size((positions.size + stride - 1) / stride), points(size, kFarAway), normals(size)
   {
     for (std::size_t k = 0; k < size; ++k) {
       const std::size_t place = std::min(k * stride + stride / 2, positions.size - 1);
@@ -57,24 +56,59 @@ struct Probes {
 
   std::size_t size;
   SortedVectors<float> points, normals;
+};
+
+/** Sums over the data in the balls about the probes. */
+struct Sums {
+  explicit Sums(std::size_t size) : count(size + kQueryBlock), weight(size + kQueryBlock), first(size + kQueryBlock), second(size + kQueryBlock)
+  {}
   AlignedArray<float> count, weight, first, second;
 };
 
-void
-sumFields(kernels::FieldSums a, const ClusterTree& tree, double radius, Probes& probes, std::size_t threads)
-{
-  a.queries = probes.points.vectors();
-  a.query_normals = probes.normals.vectors();
-  a.radius.radius_sq = static_cast<float>(radius * radius);
-  a.count = probes.count.data();
-  a.weight_sum = probes.weight.data();
-  a.first_sum = probes.first.data();
-  a.second_sum = probes.second.data();
-  const Neighborhoods near = findNeighborhoods(tree, probes.view(), radius, threads);
-  const kernels::Candidates candidates = candidatesOf(near);
-  parallelBlocks(blockCount(probes.size), kBlocksPerTask, threads,
-                 [&](std::size_t begin, std::size_t end) { kernels::active().field_sums(candidates, a, begin, end); });
-}
+class Balls {
+public:
+  Balls(const Probes& probes, PointsView data, double radius, std::size_t threads) : probes_(probes), threads_(threads)
+  {
+    ClusterTree tree;
+    tree.fit(data, threads);
+    near_ = findNeighborhoods(tree, probes.view(), radius, threads);
+    fields_.data = {data.x, data.y, data.z};
+    fields_.queries = probes.points.vectors();
+    fields_.radius.radius_sq = static_cast<float>(radius * radius);
+  }
+
+  /** Lets data weigh as much as their normals agree with the probe's. */
+  void
+  weigh(const SortedVectors<float>& normals)
+  {
+    fields_.data_normals = normals.vectors();
+    fields_.query_normals = probes_.normals.vectors();
+    fields_.normal_falloff = static_cast<float>(1.0 / (1.0 - std::cos(kFaceAngle)));
+  }
+
+  Sums
+  sum(const AlignedArray<float>& first, const AlignedArray<float>& second) const
+  {
+    Sums sums(probes_.size);
+    kernels::FieldSums a = fields_;
+    a.first_field = first.data();
+    a.second_field = second.data();
+    a.count = sums.count.data();
+    a.weight_sum = sums.weight.data();
+    a.first_sum = sums.first.data();
+    a.second_sum = sums.second.data();
+    const kernels::Candidates candidates = candidatesOf(near_);
+    parallelBlocks(blockCount(probes_.size), kBlocksPerTask, threads_,
+                   [&](std::size_t begin, std::size_t end) { kernels::active().field_sums(candidates, a, begin, end); });
+    return sums;
+  }
+
+private:
+  const Probes& probes_;
+  std::size_t threads_;
+  Neighborhoods near_;
+  kernels::FieldSums fields_;
+};
 
 /** Height of a point of the input above the coarse surface, along its normal. */
 float
@@ -84,9 +118,35 @@ residualHeight(PointsView input, PointsView positions, NormalsView normals, std:
          (input.z[i] - positions.z[i]) * normals.z[i];
 }
 
-/** Means of heights, and of their squares, over the patches about the probes. */
-void
-averageHeights(PointsView input, PointsView positions, NormalsView normals, double noise, double radius, Probes& probes,
+/** Absolute heights of at most kOutlier deviations of those nearby, whose median outliers do not move. */
+AlignedArray<float>
+sizesOf(const AlignedArray<float>& heights, std::size_t count, double noise)
+{
+  AlignedArray<float> sizes(count + kQueryBlock);
+  std::vector<float> nearby;
+  for (std::size_t begin = 0; begin < count; begin += kSurroundings) {
+    const std::size_t end = std::min(count, begin + kSurroundings);
+    for (std::size_t k = begin; k < end; ++k)
+      sizes[k] = std::abs(heights[k]);
+    nearby.assign(sizes.data() + begin, sizes.data() + end);
+    const auto middle = nearby.begin() + static_cast<std::ptrdiff_t>(nearby.size() / 2);
+    std::nth_element(nearby.begin(), middle, nearby.end());
+    const auto longest = static_cast<float>(kOutlier * std::max(noise, kMedianToDeviation * static_cast<double>(*middle)));
+    for (std::size_t k = begin; k < end; ++k)
+      sizes[k] = std::min(sizes[k], longest);
+  }
+  return sizes;
+}
+
+/** Means over the patches about the probes. */
+struct Patches {
+  std::vector<float> data;           ///< sum of weights
+  std::vector<std::uint8_t> one_face; ///< 0: reaches across an edge
+  std::vector<float> mean, mean_size, mean_square; ///< of heights
+};
+
+Patches
+averageHeights(PointsView input, PointsView positions, NormalsView normals, double noise, double radius, const Probes& probes,
                std::size_t threads)
 {
   std::vector<std::uint32_t> different; // empty: all
@@ -94,48 +154,71 @@ averageHeights(PointsView input, PointsView positions, NormalsView normals, doub
     different = differentPoints(input);
   const SortedVectors<float> surface = gather<float>(positions, {}, different, kFarAway, threads);
   const SortedVectors<float> directions = gather<float>(normals, {}, different, 0.0f, threads);
-  AlignedArray<float> heights(surface.size() + kQueryBlock), squares(surface.size() + kQueryBlock);
-  const auto longest_sq = static_cast<float>(kOutlier * kOutlier * noise * noise);
-  for (std::size_t k = 0; k < surface.size(); ++k) {
+  const std::size_t count = surface.size();
+  AlignedArray<float> heights(count + kQueryBlock), squares(count + kQueryBlock);
+  for (std::size_t k = 0; k < count; ++k)
     heights[k] = residualHeight(input, positions, normals, different.empty() ? k : different[k]);
-    squares[k] = std::min(heights[k] * heights[k], longest_sq);
+  const AlignedArray<float> sizes = sizesOf(heights, count, noise);
+  for (std::size_t k = 0; k < count; ++k)
+    squares[k] = sizes[k] * sizes[k];
+
+  Balls balls(probes, {surface.x.data(), surface.y.data(), surface.z.data(), count}, radius, threads);
+  balls.weigh(directions);
+  const Sums powers = balls.sum(heights, squares), lengths = balls.sum(sizes, squares);
+  Patches patches;
+  for (std::size_t k = 0; k < probes.size; ++k) {
+    const float weight = std::max(1.0f, powers.weight[k]);
+    patches.data.push_back(weight);
+    patches.one_face.push_back(powers.weight[k] > kOneFace * powers.count[k]);
+    patches.mean.push_back(powers.first[k] / weight);
+    patches.mean_square.push_back(powers.second[k] / weight);
+    patches.mean_size.push_back(lengths.first[k] / weight);
   }
-  ClusterTree tree;
-  tree.fit({surface.x.data(), surface.y.data(), surface.z.data(), surface.size()}, threads);
-  kernels::FieldSums a;
-  a.data = surface.vectors();
-  a.data_normals = directions.vectors();
-  a.normal_falloff = static_cast<float>(1.0 / (1.0 - std::cos(kFaceAngle)));
-  a.first_field = heights.data();
-  a.second_field = squares.data();
-  sumFields(a, tree, radius, probes, threads);
+  return patches;
 }
 
-/** Mean squared bias of the coarse surface about each probe, over the patches that lie on one face; 0 where there is none. */
-std::vector<double>
-squaredBias(double noise_sq, double radius, Probes& probes, std::size_t threads)
+/** What the patches about a probe say together. */
+struct Hearing {
+  double bias_sq;  ///< mean squared bias of the coarse surface
+  double noise_sq; ///< mean variance of heights
+};
+
+/** Hears the patches on one face about each probe; no bias where there is none. */
+std::vector<Hearing>
+hear(const Patches& patches, double noise_sq, double radius, const Probes& probes, std::size_t threads)
 {
-  AlignedArray<float> bias_sq(probes.size + kQueryBlock), counts(probes.size + kQueryBlock);
+  const std::size_t padded = probes.size + kQueryBlock;
+  AlignedArray<float> heard(padded), bias_sq(padded), variance(padded), wide(padded), wide_size(padded), wide_square(padded);
   for (std::size_t k = 0; k < probes.size; ++k) {
-    const double weight = std::max(1.0f, probes.weight[k]);
-    const double mean = probes.first[k] / weight;
-    counts[k] = probes.weight[k] > kOneFace * probes.count[k] ? 1.0f : 0.0f;
-    const double spread_sq = probes.second[k] / weight;
-    // Two sheets drawn together have no mean height, but far more spread than noise.
-    const double merged_sq = spread_sq > kMerged * noise_sq ? spread_sq - noise_sq : 0.0;
-    bias_sq[k] = counts[k] * static_cast<float>(mean * mean - noise_sq / weight + merged_sq);
+    if (!patches.one_face[k])
+      continue;
+    const double mean_sq = static_cast<double>(patches.mean[k]) * patches.mean[k], square = patches.mean_square[k];
+    const double local_sq = std::max(noise_sq, square - mean_sq);
+    heard[k] = 1.0f;
+    bias_sq[k] = static_cast<float>(mean_sq - local_sq / patches.data[k]);
+    variance[k] = static_cast<float>(local_sq);
+    if (square > kSpreadOut * noise_sq) {
+      wide[k] = 1.0f;
+      wide_size[k] = patches.mean_size[k];
+      wide_square[k] = patches.mean_square[k];
+    }
   }
-  ClusterTree tree;
-  tree.fit(probes.view(), threads);
-  kernels::FieldSums a;
-  a.data = probes.points.vectors();
-  a.first_field = bias_sq.data();
-  a.second_field = counts.data();
-  sumFields(a, tree, radius, probes, threads);
-  std::vector<double> mean(probes.size);
-  for (std::size_t k = 0; k < probes.size; ++k)
-    mean[k] = probes.second[k] > 0.0f ? std::max(0.0, static_cast<double>(probes.first[k]) / probes.second[k]) : 0.0;
-  return mean;
+  const Balls balls(probes, probes.view(), radius, threads);
+  const Sums biases = balls.sum(bias_sq, heard), variances = balls.sum(variance, wide), shape = balls.sum(wide_size, wide_square);
+  std::vector<Hearing> all(probes.size, {0.0, noise_sq});
+  for (std::size_t k = 0; k < probes.size; ++k) {
+    const double patches_heard = biases.second[k], patches_wide = variances.second[k];
+    if (patches_heard <= 0.0)
+      continue;
+    // Two sheets drawn together have no mean height, but spread more than noise, and few heights are small.
+    const double size = shape.first[k], square = shape.second[k];
+    const bool two_sheets = size * size > kTwoSheets * kTwoSheets * square * patches_wide;
+    const double merged_sq = two_sheets ? square - patches_wide * noise_sq : 0.0;
+    all[k].bias_sq = std::max(0.0, (static_cast<double>(biases.first[k]) + merged_sq) / patches_heard);
+    if (!two_sheets)
+      all[k].noise_sq = variances.first[k] / patches_heard;
+  }
+  return all;
 }
 
 } // namespace
@@ -158,15 +241,14 @@ selectFineScale(const ScaleSelectionParameters& p, const PointIndex& points, Poi
   while (static_cast<double>(stride) < dense && stride < points.size())
     stride *= 2;
 
-  Probes probes(coarse_positions, coarse_normals, stride);
-  averageHeights(points.sorted(), coarse_positions, coarse_normals, p.noise, patch, probes, threads);
-  const std::vector<float> in_patch(probes.weight.data(), probes.weight.data() + probes.size);
-  const std::vector<double> bias_sq = squaredBias(p.noise * p.noise, hearing, probes, threads);
-  const double variance = kSpread * kSpread * p.noise * p.noise * patch * patch; // divided by the data in a ball of radius 1
+  const Probes probes(coarse_positions, coarse_normals, stride);
+  const Patches patches = averageHeights(points.sorted(), coarse_positions, coarse_normals, p.noise, patch, probes, threads);
+  const std::vector<Hearing> heard = hear(patches, p.noise * p.noise, hearing, probes, threads);
   for (std::size_t k = 0; k < probes.size; ++k) {
-    const double data = std::max(1.0f, in_patch[k]);
-    const double coarse_risk = bias_sq[k] + kVariances * variance / (data * p.coarse_radius * p.coarse_radius);
-    const double fine_risk = kVariances * variance / (data * p.fine_radius * p.fine_radius);
+    const double data = patches.data[k] / (patch * patch); // in a ball of radius 1
+    const double variance = kVariances * kSpread * kSpread * heard[k].noise_sq / data;
+    const double coarse_risk = heard[k].bias_sq + variance / (p.coarse_radius * p.coarse_radius);
+    const double fine_risk = variance / (p.fine_radius * p.fine_radius);
     const std::size_t end = std::min(points.size(), (k + 1) * stride);
     for (std::size_t i = k * stride; i < end; ++i)
       fine[i] = coarse_risk > fine_risk;
