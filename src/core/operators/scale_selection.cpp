@@ -27,16 +27,15 @@ constexpr double kFaceAngle = 30.0 * kPi / 180.0;
 constexpr float kOneFace = 0.97f;
 /** Heights beyond this many noises of their surroundings are outliers and count as this. */
 constexpr double kOutlier = 4.0;
-/** Points along the curve whose median height tells the noise of the surroundings, and median of normal noise to deviation. */
+/** Points along the curve whose median height tells the noise of the surroundings; deviation of noise of median size 1. */
 constexpr std::size_t kSurroundings = 128;
 constexpr double kMedianToDeviation = 1.4826;
 /** Mean square of heights, in squares of the noise, from which on they may be those of two sheets. */
 constexpr double kSpreadOut = 3.0;
-/** Mean height, in roots of the mean square, of two sheets: 0.80 for noise however strong, 1 for sheets without noise. */
+/** Least mean size of heights, in roots of their mean square, of two sheets: 0.8 for noise of any strength, 1 for bare sheets. */
 constexpr double kTwoSheets = 0.85;
-/** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p of a noisy estimate; between them by
- * measurement. */
-constexpr double kVariances = 1.5;
+/** Weight of a variance beside a squared bias: 1 for the mean squared error, 2 for Mallows' C_p; between them by measurement. */
+constexpr double kVariances = 1.2;
 /** Standard deviation of a filtered point in units of noise / sqrt(data in the ball). */
 constexpr double kSpread = 1.15;
 
@@ -60,8 +59,8 @@ struct Probes {
 
 /** Sums over the data in the balls about the probes. */
 struct Sums {
-  explicit Sums(std::size_t size) : count(size + kQueryBlock), weight(size + kQueryBlock), first(size + kQueryBlock), second(size + kQueryBlock)
-  {}
+  explicit Sums(std::size_t padded) : count(padded), weight(padded), first(padded), second(padded) {}
+
   AlignedArray<float> count, weight, first, second;
 };
 
@@ -89,7 +88,7 @@ public:
   Sums
   sum(const AlignedArray<float>& first, const AlignedArray<float>& second) const
   {
-    Sums sums(probes_.size);
+    Sums sums(probes_.size + kQueryBlock);
     kernels::FieldSums a = fields_;
     a.first_field = first.data();
     a.second_field = second.data();
@@ -118,31 +117,28 @@ residualHeight(PointsView input, PointsView positions, NormalsView normals, std:
          (input.z[i] - positions.z[i]) * normals.z[i];
 }
 
-/** Absolute heights of at most kOutlier deviations of those nearby, whose median outliers do not move. */
-AlignedArray<float>
-sizesOf(const AlignedArray<float>& heights, std::size_t count, double noise)
+/** Cuts heights to kOutlier deviations of those nearby, whose median outliers do not move. */
+void
+cutOutliers(double noise, std::size_t count, AlignedArray<float>& heights)
 {
-  AlignedArray<float> sizes(count + kQueryBlock);
   std::vector<float> nearby;
   for (std::size_t begin = 0; begin < count; begin += kSurroundings) {
     const std::size_t end = std::min(count, begin + kSurroundings);
+    nearby.clear();
     for (std::size_t k = begin; k < end; ++k)
-      sizes[k] = std::abs(heights[k]);
-    nearby.assign(sizes.data() + begin, sizes.data() + end);
+      nearby.push_back(std::abs(heights[k]));
     const auto middle = nearby.begin() + static_cast<std::ptrdiff_t>(nearby.size() / 2);
     std::nth_element(nearby.begin(), middle, nearby.end());
     const auto longest = static_cast<float>(kOutlier * std::max(noise, kMedianToDeviation * static_cast<double>(*middle)));
     for (std::size_t k = begin; k < end; ++k)
-      sizes[k] = std::min(sizes[k], longest);
+      heights[k] = std::min(std::max(heights[k], -longest), longest);
   }
-  return sizes;
 }
 
 /** Means over the patches about the probes. */
 struct Patches {
-  std::vector<float> data;           ///< sum of weights
   std::vector<std::uint8_t> one_face; ///< 0: reaches across an edge
-  std::vector<float> mean, mean_size, mean_square; ///< of heights
+  std::vector<float> data, mean, mean_size, mean_square; ///< sum of weights; of heights
 };
 
 Patches
@@ -155,12 +151,14 @@ averageHeights(PointsView input, PointsView positions, NormalsView normals, doub
   const SortedVectors<float> surface = gather<float>(positions, {}, different, kFarAway, threads);
   const SortedVectors<float> directions = gather<float>(normals, {}, different, 0.0f, threads);
   const std::size_t count = surface.size();
-  AlignedArray<float> heights(count + kQueryBlock), squares(count + kQueryBlock);
+  AlignedArray<float> heights(count + kQueryBlock), sizes(count + kQueryBlock), squares(count + kQueryBlock);
   for (std::size_t k = 0; k < count; ++k)
     heights[k] = residualHeight(input, positions, normals, different.empty() ? k : different[k]);
-  const AlignedArray<float> sizes = sizesOf(heights, count, noise);
-  for (std::size_t k = 0; k < count; ++k)
-    squares[k] = sizes[k] * sizes[k];
+  cutOutliers(noise, count, heights);
+  for (std::size_t k = 0; k < count; ++k) {
+    sizes[k] = std::abs(heights[k]);
+    squares[k] = heights[k] * heights[k];
+  }
 
   Balls balls(probes, {surface.x.data(), surface.y.data(), surface.z.data(), count}, radius, threads);
   balls.weigh(directions);
@@ -180,7 +178,7 @@ averageHeights(PointsView input, PointsView positions, NormalsView normals, doub
 /** What the patches about a probe say together. */
 struct Hearing {
   double bias_sq;  ///< mean squared bias of the coarse surface
-  double noise_sq; ///< mean variance of heights
+  double noise_sq; ///< variance of heights, no less than the noise of the cloud
 };
 
 /** Hears the patches on one face about each probe; no bias where there is none. */
@@ -193,10 +191,9 @@ hear(const Patches& patches, double noise_sq, double radius, const Probes& probe
     if (!patches.one_face[k])
       continue;
     const double mean_sq = static_cast<double>(patches.mean[k]) * patches.mean[k], square = patches.mean_square[k];
-    const double local_sq = std::max(noise_sq, square - mean_sq);
     heard[k] = 1.0f;
-    bias_sq[k] = static_cast<float>(mean_sq - local_sq / patches.data[k]);
-    variance[k] = static_cast<float>(local_sq);
+    bias_sq[k] = static_cast<float>(mean_sq - std::max(noise_sq, square - mean_sq) / patches.data[k]);
+    variance[k] = static_cast<float>(square - mean_sq);
     if (square > kSpreadOut * noise_sq) {
       wide[k] = 1.0f;
       wide_size[k] = patches.mean_size[k];
@@ -216,7 +213,7 @@ hear(const Patches& patches, double noise_sq, double radius, const Probes& probe
     const double merged_sq = two_sheets ? square - patches_wide * noise_sq : 0.0;
     all[k].bias_sq = std::max(0.0, (static_cast<double>(biases.first[k]) + merged_sq) / patches_heard);
     if (!two_sheets)
-      all[k].noise_sq = variances.first[k] / patches_heard;
+      all[k].noise_sq = std::max(noise_sq, variances.first[k] / patches_heard);
   }
   return all;
 }
