@@ -193,6 +193,26 @@ TEST(Denoise, twoScalesKeepABossThatTheCoarseOneTakesAway)
   EXPECT_LT(std::accumulate(two.fine.begin(), two.fine.end(), 0.0), 0.2 * static_cast<double>(shape.size()));
 }
 
+TEST(Denoise, twoScalesLeaveTheNoisyHalfOfAPlaneAsFlatAsOneDoes)
+{
+  for (const double factor : {1.5, 3.0}) {
+    Shape shape = plane(20000, 0, 5);
+    SplitMix64 random(6);
+    for (Vector3& p : shape.points)
+      p[2] += (p[0] < 0.5 ? 0.01 : 0.01 * factor) * random.normal();
+    DenoiseParameters one_scale;
+    one_scale.two_scales = false;
+    const DenoiseResult two = denoise(Cloud(shape).input(), {}), one = denoise(Cloud(shape).input(), one_scale);
+    double error_of_two = 0, error_of_one = 0;
+    for (std::size_t i = 0; i < shape.size(); ++i)
+      if (shape.points[i][0] >= 0.5) {
+        error_of_two += std::abs(two.z[i]);
+        error_of_one += std::abs(one.z[i]);
+      }
+    EXPECT_LT(error_of_two, 1.2 * error_of_one) << factor;
+  }
+}
+
 TEST(Denoise, oneScaleWhereTheUserSetsALengthOrPointsMoveSideways)
 {
   const Cloud cloud(cube(3000, 0.01, 1));

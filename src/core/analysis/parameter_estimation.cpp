@@ -29,18 +29,18 @@ rulesOf(FilterScale filter_scale)
 {
   switch (filter_scale) {
   case FilterScale::Coarse: return {{4.3, 3.1}, {8.8, 6.3}, {11.8, 8.0}};
-  case FilterScale::Fine: return {{2.1, 3.2, true}, {3.05, 4.0, true}, {4.75, 7.0, true}};
+  case FilterScale::Fine: return {{2.1, 2.8, true}, {3.05, 3.2, true}, {4.65, 6.0, true}};
   default: return {{4.0, 3.0}, {8.0, 6.0}, {11.0, 8.0}};
   }
 }
 
-constexpr LengthRule kSteeredRadius = {2.45, 4.0, true}, kDirectionRadius = {4.0, 6.0};
+constexpr LengthRule kSteeredRadius = {2.45, 3.2, true}, kDirectionRadius = {4.0, 6.0};
 
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
 {
   const double noises = rule.noises * scale.noise, spacings = rule.spacings * scale.spacing;
-  const double length = rule.larger ? std::sqrt(std::hypot(noises * noises, spacings * spacings)) : std::hypot(noises, spacings);
+  const double length = rule.larger ? std::cbrt(std::pow(noises, 3) + std::pow(spacings, 3)) : std::hypot(noises, spacings);
   return {name, length, "estimated", toText(rule.noises) + " x noise " + (rule.larger ? "(max) " : "(+) ") + toText(rule.spacings) + " x spacing"};
 }
 

@@ -141,6 +141,35 @@ TEST(ScaleSelection, twoSheetsDrawnTogetherAreSeenByTheirSpread)
   EXPECT_GT(share(scene.select()), 0.99);
 }
 
+TEST(ScaleSelection, strongerNoiseIsNotDetailButTwoSheetsInItAre)
+{
+  for (const double factor : {1.5, 2.0, 3.0})
+    for (const bool outliers : {false, true}) {
+      SplitMix64 random(5);
+      // Noise is `factor` times as strong beyond the middle; two sheets lie there, three noises from their mean, where y > 2 / 3.
+      const auto stronger = [&](double x, double) {
+        const double outlier = outliers && random.below(100) == 0 ? 20 * kNoise : 0.0;
+        return outlier + (x > 0.5 ? std::sqrt(factor * factor - 1) * kNoise * random.normal() : 0.0);
+      };
+      const auto sheets = [&](double x, double y) {
+        const double side = random.below(2) == 0 ? 3 * factor : -3 * factor;
+        return stronger(x, y) + (x > 0.5 && y > 2.0 / 3 ? side * kNoise : 0.0);
+      };
+      const Scene scene(sheets);
+      const std::vector<std::uint8_t> fine = scene.select();
+      double noisy = 0, fine_noisy = 0, in_sheets = 0, fine_in_sheets = 0;
+      for (std::size_t k = 0; k < fine.size(); ++k) {
+        const double x = scene.points.sorted().x[k], y = scene.points.sorted().y[k];
+        if (x > 0.6 && y > 0.77)
+          ++in_sheets, fine_in_sheets += fine[k];
+        else if (y < 0.55)
+          ++noisy, fine_noisy += fine[k];
+      }
+      EXPECT_LT(fine_noisy, 0.1 * noisy) << factor << ' ' << outliers;
+      EXPECT_GT(fine_in_sheets, 0.95 * in_sheets) << factor << ' ' << outliers;
+    }
+}
+
 TEST(ScaleSelection, aPatchAcrossAnEdgeOfTheCoarseSurfaceSaysNothing)
 {
   // Normals of two faces, in stripes narrower than a patch: every patch has both.

@@ -25,8 +25,10 @@ struct ScaleSelectionParameters {
  *
  * Where the coarse surface is right, the input's heights above it are noise alone, and the mean over a small patch is close to 0; where
  * it cut a boss off, the mean is the boss. The squared mean less what noise leaves in it estimates the squared bias of the coarse
- * surface; the variance of each surface is added, one and a half times, and the smaller sum wins (between mean squared error and
- * Mallows' C_p, over a neighbourhood). Two sheets drawn together show as heights that spread more than noise.
+ * surface; the variance of each surface is added, 1.2 times, and the smaller sum wins (between mean squared error and Mallows' C_p,
+ * over a neighbourhood). Noise is that of the patch, or of the neighbourhood, where it is stronger than `noise`: no detail because of that.
+ * Two sheets drawn together show as heights that spread more than noise and of which few are small.
+ * Heights count up to four deviations of those nearby, so that outliers do not decide.
  * Patches that reach across an edge of the coarse surface do not count: heights of points beside an edge are not even noise.
  *
  * \param[in] points the noisy input
