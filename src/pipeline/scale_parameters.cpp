@@ -16,6 +16,8 @@ constexpr unsigned kFineRounds = 2, kFineIterations = 4;
 constexpr double kFineAngle = 25.0;
 /** Noise in spacings from which planes are steered. Below, a narrow ball holds a surface, and one that follows edges only holds more. */
 constexpr double kSteeredFrom = 0.75;
+/** Noise in box diagonals up to which they are: neighbourhoods reach ten noises, and beyond this as far as the shape bends. */
+constexpr double kSteeredUpTo = 0.02;
 
 } // namespace
 
@@ -40,7 +42,8 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
   };
   note(estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale));
   if (filter_scale == FilterScale::Fine) {
-    if (parameters.steered.radius == 0.0 && scale.noise < kSteeredFrom * scale.spacing)
+    const bool steerable = scale.noise >= kSteeredFrom * scale.spacing && scale.noise <= kSteeredUpTo * scale.diagonal;
+    if (parameters.steered.radius == 0.0 && !steerable)
       parameters.steered.passes = 0;
     if (parameters.steered.passes > 0)
       note(estimateParameters(scale, parameters.steered));
