@@ -16,6 +16,8 @@ constexpr std::size_t kChunk = 1024;
 constexpr std::size_t kPointsPerTask = 8 * kChunk;
 /** Means as a share of the points above which merging is not worth its memory. */
 constexpr double kWorthwhile = 0.75;
+/** Groups from which on it is worth it however few they are: the pairs of a pile grow with the square of its points. */
+constexpr std::uint16_t kPileGroup = 16;
 
 /** Sums over the points of one mean. */
 struct Mean {
@@ -219,7 +221,8 @@ mergePoints(const PointIndex& points, VectorsView normals, const BallRadius& rad
   });
   for (std::size_t task = 0; task < tasks; ++task)
     offsets[task + 1] += offsets[task];
-  if (static_cast<double>(offsets.back()) > kWorthwhile * static_cast<double>(points.size()))
+  const bool pile = !groups.empty() && *std::max_element(groups.begin(), groups.end()) >= kPileGroup;
+  if (!pile && static_cast<double>(offsets.back()) > kWorthwhile * static_cast<double>(points.size()))
     return merged;
   merged.positions = SortedVectors<float>(offsets.back(), kFarAway);
   if (normals.x)

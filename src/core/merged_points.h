@@ -44,7 +44,8 @@ struct MergedPoints {
   PointsView view() const { return {positions.x.data(), positions.y.data(), positions.z.data(), size()}; }
 };
 
-/** \brief Merges the points of an index; empty when that would leave more than three quarters of them.
+/** \brief Merges the points of an index; empty when that would leave more than three quarters of them and no ball holds a
+ * pile, 16 times as many as `merge_above` or so.
  * \param[in] normals unit vectors in sorted order, of free sign; null pointers: positions alone decide
  * \param[in] merge_above a ball that holds more points is thinned out; 0 = never
  */

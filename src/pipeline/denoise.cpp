@@ -189,7 +189,7 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
     if (!places.empty()) {
       replaceAt(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
       watch.lap();
-      steer(fine.steered, packed, places, cloud);
+      steer(fine.steered, packed, places, cloud, stageOf("fine planes", progress));
       result.seconds_filter += watch.lap();
     }
     cloud.fine.assign(packed.rows.size(), 0);

@@ -108,7 +108,7 @@ limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const 
   result.limited_points = 0;
   for (std::size_t k = 0; k < moves.size(); ++k)
     result.limited_points += cutMove(longest, k, moves, cloud.displacements);
-  result.max_move = frame.lengthToWorld(longest);
+  result.max_move = result.max_iteration_move = frame.lengthToWorld(longest);
   result.parameters.push_back(originOf(wanted, result.max_move));
   if (!before_gaps || std::isinf(longest))
     return;

@@ -111,7 +111,7 @@ repeatWithoutOutliers(const DenoiseInput& input, DenoiseResult first, const std:
       rows.push_back(first.sample_indices[k]);
     }
   DenoiseResult second = filter(PartOfInput(input, rows).view);
-  const std::size_t suspects_limited = limitSuspects(input, second.max_move, first);
+  const std::size_t suspects_limited = limitSuspects(input, second.max_iteration_move, first);
   putBack(second.x, places, first.x);
   putBack(second.y, places, first.y);
   putBack(second.z, places, first.z);
@@ -125,6 +125,7 @@ repeatWithoutOutliers(const DenoiseInput& input, DenoiseResult first, const std:
   putBack(second.edge, places, first.edge);
   first.limited_points = second.limited_points + suspects_limited;
   first.max_move = second.max_move;
+  first.max_iteration_move = second.max_iteration_move;
   first.repeated = true;
   first.scale = second.scale;
   first.parameters = std::move(second.parameters);

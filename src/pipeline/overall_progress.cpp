@@ -52,6 +52,8 @@ expectedStages(const ConsolidationParameters& p, std::size_t points, double long
   if (p.filter && filtersTwoScales(p.denoise))
     for (std::size_t k = 0; k < 3; ++k)
       stages.push_back({"fine " + stages[k].name, kFineShare * stages[k].cost});
+  if (p.filter && filtersTwoScales(p.denoise) && p.denoise.steered.passes > 0)
+    stages.push_back({"fine planes", kFineShare * kFilter * count});
   if (p.filter)
     count *= p.denoise.gpf.sample_ratio;
   if (p.orient)

@@ -44,11 +44,12 @@ lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, cons
 }
 
 void
-steer(const SteeredFitParameters& parameters, const Packed& packed, const std::vector<std::uint32_t>& places, FilteredCloud& cloud)
+steer(const SteeredFitParameters& parameters, const Packed& packed, const std::vector<std::uint32_t>& places, FilteredCloud& cloud,
+      const ProgressCallback& progress)
 {
   const PointsView points = packed.index->sorted();
   SoaBuffer positions = movedPoints(points, cloud.displacements);
-  fitSteeredPlanes(parameters, points, places, positions.view(), cloud.normals.view());
+  fitSteeredPlanes(parameters, points, places, positions.view(), cloud.normals.view(), progress);
   for (const std::uint32_t k : places) {
     cloud.displacements.x[k] = positions.x[k] - points.x[k];
     cloud.displacements.y[k] = positions.y[k] - points.y[k];

@@ -21,7 +21,8 @@ lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, cons
 
 /** Fits steered planes to the filtered cloud at `places` (fitSteeredPlanes()). \param[in] parameters normalised frame */
 void
-steer(const SteeredFitParameters& parameters, const Packed& packed, const std::vector<std::uint32_t>& places, FilteredCloud& cloud);
+steer(const SteeredFitParameters& parameters, const Packed& packed, const std::vector<std::uint32_t>& places, FilteredCloud& cloud,
+      const ProgressCallback& progress);
 
 /** Puts the results at `places` into the whole. */
 void

@@ -147,6 +147,18 @@ TEST(MergedPoints, areNotMadeWhereNothingIsToBeWon)
   EXPECT_TRUE(mergePoints(nothing, {}, {0.2}, 200, true, 1).empty());
 }
 
+TEST(MergedPoints, areMadeOfAPileHoweverFewItsPointsAre)
+{
+  Shape shape = plane(20000, 0.0, 1);
+  for (std::size_t i = 0; i < 3000; ++i) // 13 % of the points, but all pairs of 3,000
+    append(shape, {0.3, 0.3, 0}, {0, 0, 1});
+  const SortedCloud cloud(toLocalCloud(shape));
+  const MergedPoints merged = mergePoints(cloud.index, cloud.normals.view(), {0.02}, 200, true, 2);
+  ASSERT_FALSE(merged.empty());
+  EXPECT_LT(merged.size(), 20400u);
+  EXPECT_GT(merged.size(), 18000u);
+}
+
 TEST(MergedPoints, surviveCoincidentPoints)
 {
   SoaBuffer points(3001);

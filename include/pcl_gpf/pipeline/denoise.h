@@ -82,6 +82,7 @@ struct DenoiseResult {
   std::vector<std::uint8_t> edge;            ///< 1 = within h / 4 of a sharp edge of the filtered cloud (edgePoints())
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
   double max_move = 0;                       ///< the limit, cloud units; infinity = none, or none for the whole move where gaps were filled
+  double max_iteration_move = 0;             ///< the same before gaps were filled
 
   bool repeated = false;                     ///< many outliers were in reach: the points with outlier <= 0.1 were filtered again by themselves;
                                              ///< scale, parameters and iterations are of that second run

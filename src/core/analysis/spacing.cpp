@@ -30,6 +30,8 @@ public:
     const std::size_t begin = std::min(i - std::min(i, kNeighbor), points_.size() - window);
     runs_.assign(1, {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + window)});
     const float bound = smallest(i, neighbor);
+    if (!std::isfinite(bound))
+      return bound; // squares that float does not hold: the tree would find too few
     const PointsView p = points_.sorted();
     const std::array<float, 3> position{p.x[i], p.y[i], p.z[i]};
     runs_.clear();

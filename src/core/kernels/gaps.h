@@ -12,7 +12,7 @@
 
 namespace pcl_gpf {
 
-/** The widest gap beside a point v, weighted by the edge that it lies across. */
+/** One of the widest gaps beside a point v, weighted by the edge that it lies across. */
 struct Gap {
   std::array<float, 3> base{0.0f, 0.0f, 0.0f}; ///< b, the middle of v and t
   float clearance_sq = 0.0f;                   ///< C(b)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/steered_fit.h>
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/core/point_index.h>
@@ -234,18 +235,27 @@ validate(const SteeredFitParameters& p)
 
 void
 fitSteeredPlanes(const SteeredFitParameters& parameters, PointsView noisy, const std::vector<std::uint32_t>& places,
-                 MutableVectorsView positions, MutableVectorsView normals)
+                 MutableVectorsView positions, MutableVectorsView normals, const ProgressCallback& progress)
 {
   validate(parameters);
-  if (places.empty() || parameters.passes == 0)
+  if (parameters.passes == 0)
     return;
   checkRange("steered radius", parameters.radius, parameters.radius > 0.0, "> 0");
   checkRange("direction radius", parameters.direction_radius, parameters.direction_radius > 0.0, "> 0");
+  if (places.empty())
+    return;
+  if (*std::max_element(places.begin(), places.end()) >= noisy.size || positions.size != noisy.size || normals.size != noisy.size)
+    throw InvalidParameter("a place beyond the points, or positions and normals of another number");
   std::vector<std::uint8_t> wanted(noisy.size);
   for (const std::uint32_t row : places)
     wanted[row] = 1;
-  for (unsigned pass = 0; pass < parameters.passes; ++pass)
+  for (unsigned pass = 0; pass < parameters.passes; ++pass) {
+    if (progress && !progress(static_cast<double>(pass) / parameters.passes))
+      throw Cancelled();
     Pass(parameters, noisy, positions, normals).run(wanted);
+  }
+  if (progress && !progress(1.0))
+    throw Cancelled();
 }
 
 } // namespace pcl_gpf

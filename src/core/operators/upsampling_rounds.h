@@ -27,9 +27,9 @@ struct UpsamplingPlan {
 
 /** Edge-aware insertion in rounds.
  *
- * Every point keeps its widest gap. A round takes the upper half of all gaps by priority, fills those that can be filled
- * together, and searches again only where it inserted. A gap that is not searched again can only have
- * become smaller, so its old priority is an upper bound, and nothing of the upper half is missed.
+ * Every point keeps its two widest gaps. A round takes all but the smallest of them by priority (kShareLeft), fills those that can be
+ * filled together, and searches again only where it inserted. A gap that is not searched again can only have become smaller, so its old
+ * priority is an upper bound.
  */
 class UpsamplingRounds {
 public:

@@ -28,6 +28,14 @@ TEST(Spacing, isTheRootOfTheAreaPerPoint)
   }
 }
 
+TEST(Spacing, ofLengthsWhoseSquaresOverflowIsInfinite)
+{
+  SoaBuffer points(20);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points.x[i] = 1e20f * static_cast<float>(i);
+  EXPECT_TRUE(std::isinf(estimateSpacing(points.view())));
+}
+
 TEST(Spacing, withoutNoiseIsThatOfTheCleanSurface)
 {
   for (const double noises : {0.3, 1.0, 3.0, 10.0})

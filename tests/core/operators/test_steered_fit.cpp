@@ -239,8 +239,15 @@ TEST(SteeredFit, DoesNotDependOnThreads)
   fitSteeredPlanes(p, scene.noisy.view(), all(scene), one.guide.view(), one.normals.view());
   p.number_of_threads = 2;
   fitSteeredPlanes(p, scene.noisy.view(), all(scene), two.guide.view(), two.normals.view());
-  for (std::size_t i = 0; i < scene.size(); ++i)
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    ASSERT_EQ(one.guide.x[i], two.guide.x[i]) << i;
     ASSERT_EQ(one.guide.z[i], two.guide.z[i]) << i;
+    ASSERT_EQ(one.normals.x[i], two.normals.x[i]) << i;
+  }
+  p.merge_above = 0;
+  Scene unmerged = scene;
+  fitSteeredPlanes(p, scene.noisy.view(), all(scene), unmerged.guide.view(), unmerged.normals.view());
+  EXPECT_NE(unmerged.guide.z[0], one.guide.z[0]); // there were means
 }
 
 TEST(SteeredFit, MeansInDenseNeighbourhoodsCostLittle)
@@ -289,6 +296,18 @@ TEST(SteeredFit, RefusesBadParameters)
   refuses([](auto& p) { p.direction_radius = 0.0; });
   refuses([](auto& p) { p.longest_share = 0.5; });
   refuses([](auto& p) { p.bending_weight = -1.0; });
+  EXPECT_THROW(fitSteeredPlanes(parameters(), scene.noisy.view(), {10}, scene.guide.view(), scene.normals.view()), InvalidParameter);
+}
+
+TEST(SteeredFit, IsCancelledBetweenPasses)
+{
+  Scene scene(1000, 0.3, flat);
+  SteeredFitParameters p = parameters();
+  p.passes = 3;
+  unsigned calls = 0;
+  const auto second = [&calls](double) { return ++calls < 2; };
+  EXPECT_THROW(fitSteeredPlanes(p, scene.noisy.view(), all(scene), scene.guide.view(), scene.normals.view(), second), Cancelled);
+  EXPECT_EQ(calls, 2u);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/core/export.h>
+#include <pcl_gpf/core/iteration.h>
 #include <pcl_gpf/core/views.h>
 
 #include <cstdint>
@@ -39,11 +40,13 @@ validate(const SteeredFitParameters& parameters);
  * \param[in] noisy N positions that the guide was filtered from
  * \param[in] places rows to refine, without repeats; the others only guide
  * \param[in,out] positions, normals the guide; the rows of `places` are replaced. A normal keeps its side
- * \throws InvalidParameter (a radius of 0 as well), ExcessiveWork
+ * \param[in] progress called before each pass and at the end; return false to cancel
+ * \throws InvalidParameter (also a radius of 0, unless `passes` is 0, and places beyond the points), ExcessiveWork, Cancelled; passes that
+ * were done by then stay
  * Cost: a pass costs about as much as three rounds of GPF at the same radius. Thread safety: free function without shared state.
  */
 PCL_GPF_CORE_EXPORT void
 fitSteeredPlanes(const SteeredFitParameters& parameters, PointsView noisy, const std::vector<std::uint32_t>& places,
-                 MutableVectorsView positions, MutableVectorsView normals);
+                 MutableVectorsView positions, MutableVectorsView normals, const ProgressCallback& progress = {});
 
 } // namespace pcl_gpf
