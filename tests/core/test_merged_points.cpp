@@ -155,7 +155,7 @@ TEST(MergedPoints, areMadeOfAPileHoweverFewItsPointsAre)
   const SortedCloud cloud(toLocalCloud(shape));
   const MergedPoints merged = mergePoints(cloud.index, cloud.normals.view(), {0.02}, 200, true, 2);
   ASSERT_FALSE(merged.empty());
-  EXPECT_LT(merged.size(), 20400u);
+  EXPECT_LT(merged.size(), 20000u + 2 * 1024u); // the two chunks that the pile begins and ends in may stay
   EXPECT_GT(merged.size(), 18000u);
 }
 
