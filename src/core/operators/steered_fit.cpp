@@ -153,13 +153,27 @@ public:
   void
   run(const std::vector<std::uint8_t>& wanted)
   {
+    const NormalTensors tensors(guide_.sorted(), sortedNormals(), p_.direction_radius, threads_);
     std::vector<std::uint32_t> queries; // sorted places
-    for (std::size_t k = 0; k < guide_.size(); ++k)
+    for (std::size_t k = 0; k < guide_.size(); ++k) {
       if (wanted[guide_.order()[k]] != 0)
         queries.push_back(static_cast<std::uint32_t>(k));
+      if (queries.size() == kQueriesAtOnce || (k + 1 == guide_.size() && !queries.empty())) {
+        fit(queries, tensors);
+        queries.clear();
+      }
+    }
+  }
+
+private:
+  /** Queries that have their arrays at one time; whole blocks. */
+  static constexpr std::size_t kQueriesAtOnce = 4096;
+
+  void
+  fit(const std::vector<std::uint32_t>& queries, const NormalTensors& tensors)
+  {
     const SortedVectors<float> points = gather<float>(guide_.sorted(), {}, queries, kFarAway, threads_);
     const SortedVectors<float> query_normals = gather<float>(sortedNormals(), {}, queries, 0.0f, threads_);
-    const NormalTensors tensors(guide_.sorted(), sortedNormals(), p_.direction_radius, threads_);
     const Metrics metrics = metricsOf(p_, tensors, queries);
     const Neighborhoods near =
         findNeighborhoods(data_.merged.empty() ? guide_.tree() : data_.merged.tree,
@@ -181,7 +195,6 @@ public:
                    [&](std::size_t begin, std::size_t end) { fitBlocks(candidates, a, queries, begin, end); });
   }
 
-private:
   NormalsView sortedNormals() const { return {sorted_normals_.x.data(), sorted_normals_.y.data(), sorted_normals_.z.data(), guide_.size()}; }
 
   void
