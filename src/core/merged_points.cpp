@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "merged_points.h"
 
+#include "ball_count.h"
+
 #include <pcl_gpf/core/parallel.h>
 
 #include <algorithm>
@@ -46,7 +48,7 @@ public:
     std::size_t held = merge_above_ * MergedPoints::kLargestGroup;
     for (const std::size_t i : {begin, begin + (end - begin) / 2, end - 1})
       if (held > merge_above_)
-        held = std::min(held, countBall(i));
+        held = std::min(held, heldBy(i));
     std::size_t group = 1;
     for (; held > merge_above_ && group < MergedPoints::kLargestGroup; held = (held + 1) / 2)
       group *= 2;
@@ -56,22 +58,10 @@ public:
 private:
   /** Points within the radius of point i, or some number that asks for the largest groups. */
   std::size_t
-  countBall(std::size_t i)
+  heldBy(std::size_t i)
   {
-    const PointsView p = points_.sorted();
-    const std::array<float, 3> centre = {p.x[i], p.y[i], p.z[i]};
-    const auto radius_sq = static_cast<float>(radiusSqOf(radius_, i));
-    runs_.clear();
-    points_.tree().collectRuns({centre, centre}, std::sqrt(radius_sq), runs_);
-    std::size_t held = 0;
-    for (std::size_t r = 0; r < runs_.size() && held <= merge_above_ * MergedPoints::kLargestGroup; ++r) {
-      const Run& run = runs_[r];
-      for (std::size_t j = run.begin; j < run.end; ++j) {
-        const float dx = p.x[j] - centre[0], dy = p.y[j] - centre[1], dz = p.z[j] - centre[2];
-        held += dx * dx + dy * dy + dz * dz < radius_sq;
-      }
-    }
-    return held;
+    return countBall(points_.tree(), points_.sorted(), i, static_cast<float>(radiusSqOf(radius_, i)), runs_,
+                     merge_above_ * MergedPoints::kLargestGroup);
   }
 
   const PointIndex& points_;

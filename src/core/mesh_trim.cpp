@@ -30,18 +30,6 @@ verticesWithin(const SoaBuffer& v, const PointIndex& points, double distance, un
   return within;
 }
 
-SoaBuffer
-chosen(const SoaBuffer& from, const std::vector<std::uint32_t>& rows)
-{
-  SoaBuffer values(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    values.x[i] = from.x[rows[i]];
-    values.y[i] = from.y[rows[i]];
-    values.z[i] = from.z[rows[i]];
-  }
-  return values;
-}
-
 } // namespace
 
 void
@@ -62,8 +50,8 @@ trimMesh(SurfaceMesh& mesh, const PointIndex& points, double distance, unsigned 
     }
   }
   if (mesh.normals.size() == mesh.vertexCount())
-    mesh.normals = chosen(mesh.normals, order);
-  mesh.vertices = chosen(mesh.vertices, order);
+    mesh.normals = elementsOf(mesh.normals.view(), order);
+  mesh.vertices = elementsOf(mesh.vertices.view(), order);
   mesh.triangles = std::move(triangles);
 }
 

@@ -38,22 +38,6 @@ componentSizes(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& roots)
   return sizes;
 }
 
-namespace {
-
-SoaBuffer
-selected(const SoaBuffer& from, const std::vector<std::uint32_t>& kept)
-{
-  SoaBuffer to(from.size() == 0 ? 0 : kept.size());
-  for (std::size_t i = 0; i < to.size(); ++i) {
-    to.x[i] = from.x[kept[i]];
-    to.y[i] = from.y[kept[i]];
-    to.z[i] = from.z[kept[i]];
-  }
-  return to;
-}
-
-} // namespace
-
 MeshTopology
 meshTopology(const SurfaceMesh& mesh)
 {
@@ -116,8 +100,9 @@ removeSmallComponents(SurfaceMesh& mesh, double share)
       for (std::size_t k = 0; k < 3; ++k)
         triangles.push_back(place[mesh.triangles[t + k]]);
   mesh.triangles = std::move(triangles);
-  mesh.vertices = selected(mesh.vertices, kept);
-  mesh.normals = selected(mesh.normals, kept);
+  mesh.vertices = elementsOf(mesh.vertices.view(), kept);
+  if (mesh.normals.size() > 0)
+    mesh.normals = elementsOf(mesh.normals.view(), kept);
   return static_cast<std::size_t>(removed);
 }
 

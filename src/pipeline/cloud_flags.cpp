@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud_flags.h"
 
+#include "move_limit.h"
 #include "scale_parameters.h"
 
 #include <pcl_gpf/core/operators/edge_points.h>
@@ -14,30 +15,6 @@
 namespace pcl_gpf {
 
 namespace {
-
-/** Places of the filtered points, normalised frame. */
-SoaBuffer
-placesOf(const Packed& packed, const std::vector<std::uint32_t>& samples, const SoaBuffer& displacements)
-{
-  const PointsView points = packed.index->sorted();
-  SoaBuffer places(displacements.size());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::size_t from = samples.empty() ? k : samples[k];
-    places.x[k] = points.x[from] + displacements.x[k];
-    places.y[k] = points.y[from] + displacements.y[k];
-    places.z[k] = points.z[from] + displacements.z[k];
-  }
-  return places;
-}
-
-std::vector<float>
-lengthsOf(const SoaBuffer& vectors)
-{
-  std::vector<float> lengths(vectors.size());
-  for (std::size_t k = 0; k < lengths.size(); ++k)
-    lengths[k] = std::sqrt(vectors.x[k] * vectors.x[k] + vectors.y[k] * vectors.y[k] + vectors.z[k] * vectors.z[k]);
-  return lengths;
-}
 
 /** Noise that judges outliers: as estimated, which is that of the quietest parts of a cloud, or that of most of the moves. */
 double
@@ -69,8 +46,11 @@ findFlags(const DenoiseParameters& p, const CloudScale& scale, double data_radiu
 {
   if (!(scale.spacing > 0.0) || !(p.flags.outliers || p.flags.sigma || p.flags.edges))
     return;
-  const SoaBuffer places = placesOf(packed, samples, cloud.displacements);
-  const std::vector<float> moves = lengthsOf(cloud.before_gaps.size() > 0 ? cloud.before_gaps : cloud.displacements);
+  const SoaBuffer places = movedPoints(packed.index->sorted(), samples, cloud.displacements);
+  const SoaBuffer& judged = cloud.before_gaps.size() > 0 ? cloud.before_gaps : cloud.displacements;
+  std::vector<float> moves(judged.size());
+  for (std::size_t k = 0; k < moves.size(); ++k)
+    moves[k] = static_cast<float>(lengthOf(judged, k));
   if (p.flags.outliers && !tellsOutliers(p, scale, packed.rows.size()))
     cloud.outlier.assign(moves.size(), 0.0f);
   else if (p.flags.outliers)

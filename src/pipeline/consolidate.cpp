@@ -4,9 +4,9 @@
 #include <pcl_gpf/pipeline/orient.h>
 
 #include "overall_progress.h"
+#include "stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -15,14 +15,6 @@
 namespace pcl_gpf {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double
-secondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /** Every stage says that it begins, so that each can be cancelled there, whatever is inside. */
 void
@@ -137,20 +129,20 @@ void
 orientStage(const ConsolidationParameters& p, const StageProgress& progress, ConsolidationResult& result)
 {
   beginStage(progress, "orient");
-  const auto start = Clock::now();
+  const Stopwatch watch;
   OrientResult oriented = orientCloud(result.points.view(), p.orientation, p.viewpoint ? &*p.viewpoint : nullptr, progress);
   moveNormals(oriented.normal_x, oriented.normal_y, oriented.normal_z, result.points);
   result.orientation = oriented.orientation;
   result.estimated_normals += oriented.estimated_normals;
   result.seconds.normals += oriented.seconds_normals;
-  result.seconds.orient = secondsSince(start) - oriented.seconds_normals;
+  result.seconds.orient = watch.elapsed() - oriented.seconds_normals;
 }
 
 void
 upsampleStage(const ConsolidationParameters& p, const StageProgress& progress, ConsolidationResult& result)
 {
   beginStage(progress, "upsampling");
-  const auto start = Clock::now();
+  const Stopwatch watch;
   ConsolidatedCloud& before = result.points;
   UpsampleResult& made = result.upsampling = upsample(before.view(), p.upsampling, progress);
   moveNormals(made.input_normal_x, made.input_normal_y, made.input_normal_z, before);
@@ -172,7 +164,7 @@ upsampleStage(const ConsolidationParameters& p, const StageProgress& progress, C
   append(made.parents, after.source_rows);
   result.estimated_normals += made.estimated_normals;
   result.seconds.normals += made.seconds_normals;
-  result.seconds.upsample = secondsSince(start) - made.seconds_normals;
+  result.seconds.upsample = watch.elapsed() - made.seconds_normals;
 }
 
 void
@@ -207,12 +199,12 @@ validate(const ConsolidationParameters& p)
 ConsolidationResult
 consolidate(const DenoiseInput& input, const ConsolidationParameters& wanted, const StageProgress& callback)
 {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   validate(wanted);
   const ConsolidationParameters p = withThreads(wanted);
   ConsolidationResult result;
   check(input, p);
-  result.seconds.check = secondsSince(start);
+  result.seconds.check = watch.elapsed();
   OverallProgress whole(expectedStages(p, input.size, longestSide(input)), callback);
   const auto report = [&whole](const std::string& stage, double fraction) { return whole.report(stage, fraction); };
   const StageProgress progress = callback ? StageProgress(report) : StageProgress();
@@ -227,7 +219,7 @@ consolidate(const DenoiseInput& input, const ConsolidationParameters& wanted, co
     meshStage(p, progress, result);
   if (callback && !whole.finish())
     throw Cancelled();
-  result.seconds.total = secondsSince(start);
+  result.seconds.total = watch.elapsed();
   return result;
 }
 

@@ -9,9 +9,9 @@
 #include "outlier_repeat.h"
 #include "packed_cloud.h"
 #include "scale_parameters.h"
+#include "stopwatch.h"
 #include "two_scales.h"
 
-#include <chrono>
 #include <limits>
 #include <string>
 #include <utility>
@@ -19,27 +19,6 @@
 namespace pcl_gpf {
 
 namespace {
-
-class Stopwatch {
-public:
-  double
-  lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
-  double
-  elapsed() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void
 estimateMissingNormals(const PlaneNormalsParameters& parameters, Packed& packed)
@@ -241,15 +220,7 @@ denoiseNormals(const DenoiseInput& input, const DenoiseParameters& wanted, const
   const DenoiseParameters p = parametersAt(FilterScale::Single, parameters, scale, packed.frame, result);
   refuseExcessiveStages(p, packed, 0);
   makeNormals(input, p, FilterScale::Single, packed, progress, result);
-  const float missing = std::numeric_limits<float>::quiet_NaN();
-  const auto spread = [&](const AlignedArray<float>& from, std::vector<float>& to) {
-    to.assign(input.size, missing);
-    for (std::size_t k = 0; k < packed.rows.size(); ++k)
-      to[packed.rows[k]] = from[k];
-  };
-  spread(packed.normals.x, result.normal_x);
-  spread(packed.normals.y, result.normal_y);
-  spread(packed.normals.z, result.normal_z);
+  spreadNormals(packed, input.size, result.normal_x, result.normal_y, result.normal_z);
   return result;
 }
 

@@ -7,8 +7,8 @@
 #include <pcl_gpf/pipeline/mesh.h>
 
 #include "packed_cloud.h"
+#include "stopwatch.h"
 
-#include <chrono>
 #include <string>
 #include <utility>
 
@@ -25,12 +25,6 @@ struct Samples {
   std::vector<std::uint32_t> rows;
   SoaBuffer points, normals;
 };
-
-double
-secondsSince(std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /** \throws UnsuitableData */
 void
@@ -190,13 +184,12 @@ meshCloud(const DenoiseInput& input, const MeshParameters& parameters, const std
     return progress ? ProgressCallback([name, &progress](double fraction) { return progress(name, fraction); }) : ProgressCallback();
   };
   MeshResult result;
-  auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   Samples samples = packSamples(input, parameters.number_of_threads, result);
   orientSamples(parameters, viewpoint, stage("orient"), samples, result);
-  result.seconds_orient = secondsSince(start);
-  start = std::chrono::steady_clock::now();
+  result.seconds_orient = watch.lap();
   unpackMesh(samples, makeMesh(parameters, stage("mesh"), samples, result), parameters.number_of_threads, result);
-  result.seconds_mesh = secondsSince(start);
+  result.seconds_mesh = watch.lap();
   return result;
 }
 

@@ -22,18 +22,11 @@ constexpr double kUneven = 0.1;
 constexpr double kNoiseAlone = 1.3;
 
 double
-length(const SoaBuffer& moves, std::size_t k)
-{
-  const double x = moves.x[k], y = moves.y[k], z = moves.z[k];
-  return std::sqrt(x * x + y * y + z * z);
-}
-
-double
 shareOfLonger(double longest, const SoaBuffer& moves)
 {
   std::size_t longer = 0;
   for (std::size_t k = 0; k < moves.size(); ++k)
-    longer += length(moves, k) > longest;
+    longer += lengthOf(moves, k) > longest;
   return moves.size() > 0 ? static_cast<double>(longer) / static_cast<double>(moves.size()) : 0.0;
 }
 
@@ -44,7 +37,7 @@ usualMove(const SoaBuffer& moves)
   constexpr double kMedianOfNormal = 0.6745;
   std::vector<double> lengths(moves.size());
   for (std::size_t k = 0; k < lengths.size(); ++k)
-    lengths[k] = length(moves, k);
+    lengths[k] = lengthOf(moves, k);
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
   return lengths.empty() ? 0.0 : *middle / kMedianOfNormal;
@@ -72,7 +65,7 @@ longestMove(const DenoiseParameters& wanted, double noise, double spacing, const
 bool
 cutMove(double longest, std::size_t k, const SoaBuffer& from, SoaBuffer& to)
 {
-  const double distance = length(from, k);
+  const double distance = lengthOf(from, k);
   if (!(distance > longest))
     return false;
   const double share = longest / distance * (1.0 - 1e-6); // rounding must not pass the limit
@@ -96,6 +89,13 @@ originOf(const DenoiseParameters& wanted, double limit)
 }
 
 } // namespace
+
+double
+lengthOf(const SoaBuffer& moves, std::size_t k)
+{
+  const double x = moves.x[k], y = moves.y[k], z = moves.z[k];
+  return std::sqrt(x * x + y * y + z * z);
+}
 
 void
 limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const LocalFrame& frame, FilteredCloud& cloud, DenoiseResult& result)

@@ -3,8 +3,8 @@
 #include <pcl_gpf/pipeline/orient.h>
 
 #include "packed_cloud.h"
+#include "stopwatch.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -53,7 +53,7 @@ orientCloud(const DenoiseInput& input, const NormalOrientationParameters& wanted
     for (const double coordinate : *viewpoint)
       if (!std::isfinite(coordinate))
         throw InvalidParameter("the viewpoint is not finite");
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   NormalOrientationParameters parameters = wanted;
   Packed packed = packPositions(input, false, parameters.number_of_threads);
   packNormals(input, packed);
@@ -62,7 +62,7 @@ orientCloud(const DenoiseInput& input, const NormalOrientationParameters& wanted
   result.estimated_normals = packed.missing_normals.size();
   if (!packed.missing_normals.empty())
     fillNormals(packed, parameters.number_of_threads, progress);
-  result.seconds_normals = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds_normals = watch.elapsed();
 
   parameters.noise = packed.frame.lengthToLocal(parameters.noise);
   std::array<double, 3> local_viewpoint{0.0, 0.0, 0.0};
@@ -72,14 +72,7 @@ orientCloud(const DenoiseInput& input, const NormalOrientationParameters& wanted
                                      viewpoint ? &local_viewpoint : nullptr, stageOf("orient", progress));
   result.orientation.noise = packed.frame.lengthToWorld(result.orientation.noise);
 
-  const auto spread = [&](const AlignedArray<float>& from, std::vector<float>& to) {
-    to.assign(input.size, std::numeric_limits<float>::quiet_NaN());
-    for (std::size_t k = 0; k < packed.rows.size(); ++k)
-      to[packed.rows[k]] = from[k];
-  };
-  spread(packed.normals.x, result.normal_x);
-  spread(packed.normals.y, result.normal_y);
-  spread(packed.normals.z, result.normal_z);
+  spreadNormals(packed, input.size, result.normal_x, result.normal_y, result.normal_z);
   return result;
 }
 

@@ -104,6 +104,32 @@ packNormals(const DenoiseInput& input, Packed& packed)
   }
 }
 
+void
+spreadNormals(const Packed& packed, std::size_t size, std::vector<float>& x, std::vector<float>& y, std::vector<float>& z)
+{
+  const auto spread = [&](const AlignedArray<float>& from, std::vector<float>& to) {
+    to.assign(size, std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t k = 0; k < packed.rows.size(); ++k)
+      to[packed.rows[k]] = from[k];
+  };
+  spread(packed.normals.x, x);
+  spread(packed.normals.y, y);
+  spread(packed.normals.z, z);
+}
+
+SoaBuffer
+movedPoints(PointsView points, const std::vector<std::uint32_t>& samples, const SoaBuffer& displacements)
+{
+  SoaBuffer moved(displacements.size());
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const std::size_t from = samples.empty() ? k : samples[k];
+    moved.x[k] = points.x[from] + displacements.x[k];
+    moved.y[k] = points.y[from] + displacements.y[k];
+    moved.z[k] = points.z[from] + displacements.z[k];
+  }
+  return moved;
+}
+
 std::vector<std::uint32_t>
 drawSamples(const GPFParameters& gpf, const Packed& packed)
 {

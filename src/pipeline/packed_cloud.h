@@ -43,6 +43,14 @@ packPositions(const DenoiseInput& input, bool with_remainders, unsigned number_o
 void
 packNormals(const DenoiseInput& input, Packed& packed);
 
+/** The normals by input row, NaN for rows that are not packed. */
+void
+spreadNormals(const Packed& packed, std::size_t size, std::vector<float>& x, std::vector<float>& y, std::vector<float>& z);
+
+/** Where the filter put the samples; no samples: every point. \param[in] points the sorted points \param[in] displacements of each sample */
+SoaBuffer
+movedPoints(PointsView points, const std::vector<std::uint32_t>& samples, const SoaBuffer& displacements);
+
 /** X^0 as sorted places, ascending by input row; empty = every point. */
 std::vector<std::uint32_t>
 drawSamples(const GPFParameters& gpf, const Packed& packed);

@@ -5,23 +5,6 @@
 
 namespace pcl_gpf {
 
-namespace {
-
-/** Where the filter put the sorted points. */
-SoaBuffer
-movedPoints(PointsView points, const SoaBuffer& displacements)
-{
-  SoaBuffer positions(points.size);
-  for (std::size_t k = 0; k < points.size; ++k) {
-    positions.x[k] = points.x[k] + displacements.x[k];
-    positions.y[k] = points.y[k] + displacements.y[k];
-    positions.z[k] = points.z[k] + displacements.z[k];
-  }
-  return positions;
-}
-
-} // namespace
-
 bool
 filtersTwoScales(const DenoiseParameters& p)
 {
@@ -34,7 +17,7 @@ std::vector<std::uint32_t>
 lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, const FilteredCloud& coarse)
 {
   const std::vector<std::uint8_t> fine =
-      selectFineScale(selection, *packed.index, movedPoints(packed.index->sorted(), coarse.displacements), coarse.normals);
+      selectFineScale(selection, *packed.index, movedPoints(packed.index->sorted(), {}, coarse.displacements), coarse.normals);
   std::vector<std::uint32_t> places;
   places.reserve(static_cast<std::size_t>(std::count(fine.begin(), fine.end(), 1)));
   for (std::size_t k = 0; k < fine.size(); ++k)
@@ -48,7 +31,7 @@ steer(const SteeredFitParameters& parameters, const Packed& packed, const std::v
       const ProgressCallback& progress)
 {
   const PointsView points = packed.index->sorted();
-  SoaBuffer positions = movedPoints(points, cloud.displacements);
+  SoaBuffer positions = movedPoints(points, {}, cloud.displacements);
   fitSteeredPlanes(parameters, points, places, positions.view(), cloud.normals.view(), progress);
   for (const std::uint32_t k : places) {
     cloud.displacements.x[k] = positions.x[k] - points.x[k];

@@ -6,8 +6,8 @@
 #include <pcl_gpf/surface/mls_points.h>
 
 #include "packed_cloud.h"
+#include "stopwatch.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -15,12 +15,6 @@
 namespace pcl_gpf {
 
 namespace {
-
-double
-secondsSince(std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /** Normals of all rows: those of the input, and estimated ones in place of those that it does not have. */
 void
@@ -157,20 +151,19 @@ UpsampleResult
 upsample(const DenoiseInput& input, const UpsampleParameters& parameters, const StageProgress& progress)
 {
   validate(parameters.edge_aware);
-  auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   UpsampleResult result;
   Packed packed = packPositions(input, false, parameters.edge_aware.number_of_threads);
   result.non_finite_points = input.size - packed.rows.size();
   requireRoomToFill(packed, parameters.edge_aware);
   result.spacing = packed.frame.lengthToWorld(estimateSpacing(*packed.index, parameters.edge_aware.number_of_threads));
   completeNormals(input, packed, parameters.edge_aware.number_of_threads, progress, result);
-  result.seconds_normals = secondsSince(start);
-  start = std::chrono::steady_clock::now();
+  result.seconds_normals = watch.lap();
   if (parameters.method == UpsamplingMethod::EdgeAware)
     fillGaps(input, packed, parameters.edge_aware, progress, result);
   else
     sampleSurfaces(input, packed, parameters, factorOf(parameters.edge_aware, packed.rows.size(), result.spacing), result);
-  result.seconds_upsampling = secondsSince(start);
+  result.seconds_upsampling = watch.lap();
   return result;
 }
 

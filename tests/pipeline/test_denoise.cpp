@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/columns.h"
 #include "support/edge_band.h"
 #include "support/local_cloud.h"
 
@@ -19,38 +20,22 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /** A cloud as denoise() takes it. */
-struct Cloud {
-  std::vector<double> x, y, z;
+struct Cloud : Columns {
   std::vector<float> normal_x, normal_y, normal_z; ///< may be empty
 
   Cloud() = default;
-  explicit Cloud(const Shape& shape, bool with_normals = false)
+  explicit Cloud(const Shape& shape, bool with_normals = false) : Columns(shape.points)
   {
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-      add(shape.points[i]);
-      if (with_normals) {
-        normal_x.push_back(static_cast<float>(shape.normals[i][0]));
-        normal_y.push_back(static_cast<float>(shape.normals[i][1]));
-        normal_z.push_back(static_cast<float>(shape.normals[i][2]));
-      }
+    for (const Vector3& n : with_normals ? shape.normals : std::vector<Vector3>{}) {
+      normal_x.push_back(static_cast<float>(n[0]));
+      normal_y.push_back(static_cast<float>(n[1]));
+      normal_z.push_back(static_cast<float>(n[2]));
     }
   }
-  void
-  add(const Vector3& p)
-  {
-    x.push_back(p[0]);
-    y.push_back(p[1]);
-    z.push_back(p[2]);
-  }
-  std::size_t size() const { return x.size(); }
   DenoiseInput
   input() const
   {
-    DenoiseInput in;
-    in.x = x.data();
-    in.y = y.data();
-    in.z = z.data();
-    in.size = size();
+    DenoiseInput in = Columns::input();
     if (!normal_x.empty()) {
       in.normal_x = normal_x.data();
       in.normal_y = normal_y.data();

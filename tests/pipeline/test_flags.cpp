@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outliers, edge points, local noise and bounded moves as denoise() finds them; presets.
-#include "support/shapes.h"
+#include "support/columns.h"
 
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/pipeline/denoise.h>
@@ -15,33 +15,12 @@
 namespace pcl_gpf::test {
 namespace {
 
-struct Columns {
-  explicit Columns(const std::vector<Vector3>& points)
-  {
-    for (const Vector3& p : points) {
-      x.push_back(p[0]);
-      y.push_back(p[1]);
-      z.push_back(p[2]);
-    }
-  }
-  DenoiseInput
-  input() const
-  {
-    DenoiseInput in;
-    in.x = x.data();
-    in.y = y.data();
-    in.z = z.data();
-    in.size = x.size();
-    return in;
-  }
-  double
-  move(const DenoiseResult& result, std::size_t k) const
-  {
-    const std::size_t row = result.sample_indices[k];
-    return std::hypot(result.x[k] - x[row], result.y[k] - y[row], result.z[k] - z[row]);
-  }
-  std::vector<double> x, y, z;
-};
+double
+moveOf(const Columns& cloud, const DenoiseResult& result, std::size_t k)
+{
+  const std::size_t row = result.sample_indices[k];
+  return std::hypot(result.x[k] - cloud.x[row], result.y[k] - cloud.y[row], result.z[k] - cloud.z[row]);
+}
 
 /** A noisy sphere with every `every`-th point replaced by one above it, some of them in reach of the filter. */
 std::vector<Vector3>
@@ -96,7 +75,7 @@ TEST(DenoiseFlags, flagOutliersAndLeaveThemOutOfTheDataOfOthers)
   EXPECT_LE(errors, 1.02 * errors_alone);
   EXPECT_NEAR(result.scale.noise, alone.scale.noise, 0.05 * alone.scale.noise);
   for (std::size_t i = 0; i < count; ++i)
-    ASSERT_LE(cloud.move(result, i), result.max_move);
+    ASSERT_LE(moveOf(cloud, result, i), result.max_move);
 }
 
 TEST(DenoiseFlags, areLeftOutWhereTheyAreNotWanted)
@@ -183,8 +162,8 @@ TEST(DenoiseMaxMove, boundsEveryMoveAndCountsTheCut)
   EXPECT_EQ(result.max_move, 0.005);
   std::size_t at_limit = 0;
   for (std::size_t k = 0; k < result.x.size(); ++k) {
-    ASSERT_LE(cloud.move(result, k), 0.005);
-    at_limit += cloud.move(result, k) > 0.005 * (1 - 1e-5);
+    ASSERT_LE(moveOf(cloud, result, k), 0.005);
+    at_limit += moveOf(cloud, result, k) > 0.005 * (1 - 1e-5);
   }
   EXPECT_NEAR(static_cast<double>(result.limited_points), static_cast<double>(at_limit), 2.0);
   EXPECT_GT(at_limit, 1000u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/shapes.h"
+#include "support/columns.h"
 
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/pipeline/denoise.h>
@@ -15,29 +15,6 @@ namespace {
 
 /** The whole cloud in every ball: pairs explode. */
 constexpr double kMistake = 1000.0;
-
-struct Columns {
-  std::vector<double> x, y, z;
-
-  explicit Columns(const Shape& shape)
-  {
-    for (const Vector3& p : shape.points) {
-      x.push_back(p[0]);
-      y.push_back(p[1]);
-      z.push_back(p[2]);
-    }
-  }
-  DenoiseInput
-  input() const
-  {
-    DenoiseInput in;
-    in.x = x.data();
-    in.y = y.data();
-    in.z = z.data();
-    in.size = x.size();
-    return in;
-  }
-};
 
 /** Runs, and expects a refusal of `parameter` before any stage has begun. */
 void
@@ -57,7 +34,7 @@ expectRefusal(const std::function<void(const StageProgress&)>& run, const std::s
 
 TEST(Foresight, refusesEveryRadiusThatExplodesBeforeTheFirstStage)
 {
-  const Columns cloud(cube(100000, 0.01, 3));
+  const Columns cloud(cube(100000, 0.01, 3).points);
   const auto refused = [&](const char* parameter, const std::function<void(DenoiseParameters&)>& change) {
     DenoiseParameters p;
     change(p);
@@ -85,7 +62,7 @@ TEST(Foresight, refusesEveryRadiusThatExplodesBeforeTheFirstStage)
 
 TEST(Foresight, refusesPlaneFitsOverTheWholeCloud)
 {
-  const Columns cloud(cube(400000, 0.01, 3));
+  const Columns cloud(cube(400000, 0.01, 3).points);
   DenoiseParameters p;
   p.normals.radius = kMistake;
   p.normals.merge_above = 0;

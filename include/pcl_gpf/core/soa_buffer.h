@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 namespace pcl_gpf {
 
@@ -96,5 +97,19 @@ struct SoaBuffer {
   VectorsView view() const { return {x.data(), y.data(), z.data(), size()}; }
   MutableVectorsView view() { return {x.data(), y.data(), z.data(), size()}; }
 };
+
+/** \brief The vectors at `places`, in that order. \param[in] places any unsigned integers below from.size */
+template <typename Index>
+SoaBuffer
+elementsOf(VectorsView from, const std::vector<Index>& places)
+{
+  SoaBuffer to(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    to.x[k] = from.x[places[k]];
+    to.y[k] = from.y[places[k]];
+    to.z[k] = from.z[places[k]];
+  }
+  return to;
+}
 
 } // namespace pcl_gpf

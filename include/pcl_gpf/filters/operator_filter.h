@@ -124,12 +124,6 @@ protected:
 private:
   void
   filterPoints(PointCloud& output, FilterStatistics& statistics);
-  void
-  warnAbout(const PackedCloud& packed, bool degenerate) const;
-  FilteredPoints
-  seedPoints(const PackedCloud& packed) const;
-  void
-  reportSeeds(const PackedCloud& packed, const std::vector<std::uint32_t>& kept);
 
   SearchPtr search_;
   unsigned int threads_ = 0;

@@ -39,14 +39,7 @@ differentPoints(PointsView points)
 SoaBuffer
 distinctPoints(PointsView points)
 {
-  const std::vector<std::uint32_t> different = differentPoints(points);
-  SoaBuffer distinct(different.size());
-  for (std::size_t k = 0; k < different.size(); ++k) {
-    distinct.x[k] = points.x[different[k]];
-    distinct.y[k] = points.y[different[k]];
-    distinct.z[k] = points.z[different[k]];
-  }
-  return distinct;
+  return elementsOf(points, differentPoints(points));
 }
 
 bool

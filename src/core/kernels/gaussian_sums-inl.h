@@ -90,8 +90,7 @@ struct MomentSum {
     count = hn::Add(count, hn::IfThenElseZero(inside, weight));
     const Lanes3<D> w = kWeighted ? Lanes3<D>{hn::Mul(weight, o.x), hn::Mul(weight, o.y), hn::Mul(weight, o.z)} : o;
     mean = {hn::Add(mean.x, w.x), hn::Add(mean.y, w.y), hn::Add(mean.z, w.z)};
-    diagonal = {mulAdd(w.x, o.x, diagonal.x), mulAdd(w.y, o.y, diagonal.y), mulAdd(w.z, o.z, diagonal.z)};
-    mixed = {mulAdd(w.y, o.z, mixed.x), mulAdd(w.x, o.z, mixed.y), mulAdd(w.x, o.y, mixed.z)};
+    addOuter<D>(w, o, diagonal, mixed);
   }
 
   HWY_INLINE void

@@ -78,6 +78,15 @@ dot(const Lanes3<D>& a, const Lanes3<D>& b)
   return mulAdd(a.z, b.z, mulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
 }
 
+/** Adds w o^T to a symmetric matrix, where w = weight * o: its diagonal and yz, xz, xy. */
+template <class D>
+HWY_INLINE void
+addOuter(const Lanes3<D>& w, const Lanes3<D>& o, Lanes3<D>& diagonal, Lanes3<D>& mixed)
+{
+  diagonal = {mulAdd(w.x, o.x, diagonal.x), mulAdd(w.y, o.y, diagonal.y), mulAdd(w.z, o.z, diagonal.z)};
+  mixed = {mulAdd(w.y, o.z, mixed.x), mulAdd(w.x, o.z, mixed.y), mulAdd(w.x, o.y, mixed.z)};
+}
+
 /** sum += s * v */
 template <class D>
 HWY_INLINE void

@@ -103,8 +103,7 @@ struct ProjectionSum {
     residual_sq = mulAdd(weighted_height, height, residual_sq);
     addScaled<D>(cross, weighted_height, n);
     const Lanes3<D> weighted = {hn::Mul(posterior, n.x), hn::Mul(posterior, n.y), hn::Mul(posterior, n.z)};
-    diagonal = {mulAdd(weighted.x, n.x, diagonal.x), mulAdd(weighted.y, n.y, diagonal.y), mulAdd(weighted.z, n.z, diagonal.z)};
-    mixed = {mulAdd(weighted.y, n.z, mixed.x), mulAdd(weighted.x, n.z, mixed.y), mulAdd(weighted.x, n.y, mixed.z)};
+    addOuter<D>(weighted, n, diagonal, mixed);
   }
 
   HWY_INLINE void

@@ -63,8 +63,7 @@ struct SteeredMomentSum {
     weight_sum = hn::Add(weight_sum, weight);
     const Lanes3<D> w = {hn::Mul(weight, o.x), hn::Mul(weight, o.y), hn::Mul(weight, o.z)};
     mean = {hn::Add(mean.x, w.x), hn::Add(mean.y, w.y), hn::Add(mean.z, w.z)};
-    diagonal = {mulAdd(w.x, o.x, diagonal.x), mulAdd(w.y, o.y, diagonal.y), mulAdd(w.z, o.z, diagonal.z)};
-    mixed = {mulAdd(w.y, o.z, mixed.x), mulAdd(w.x, o.z, mixed.y), mulAdd(w.x, o.y, mixed.z)};
+    addOuter<D>(w, o, diagonal, mixed);
     addScaled<D>(shift, weight, loadDatum(d, a.residuals, datum));
     addHeight(weight, o, loadDatum(d, a.data_normals, datum));
   }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "normal_tensors.h"
 
-#include <pcl_gpf/core/cluster_tree.h>
 #include <pcl_gpf/core/parallel.h>
 
+#include "../ball_count.h"
 #include "../sorted_points.h"
 
 #include <algorithm>
-#include <array>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -23,22 +22,14 @@ constexpr std::size_t kCounted = 64;
 
 /** Mean number of points in a ball, over a few of them. */
 double
-meanCount(PointsView points, const ClusterTree& tree, double radius)
+meanCount(const PointIndex& points, double radius)
 {
   std::vector<Run> runs;
   const auto radius_sq = static_cast<float>(radius * radius);
-  const std::size_t step = std::max<std::size_t>(1, points.size / kCounted);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kCounted);
   std::size_t balls = 0, held = 0;
-  for (std::size_t i = step / 2; i < points.size; i += step, ++balls) {
-    const std::array<float, 3> centre = {points.x[i], points.y[i], points.z[i]};
-    runs.clear();
-    tree.collectRuns({centre, centre}, static_cast<float>(radius), runs);
-    for (const Run& run : runs)
-      for (std::size_t j = run.begin; j < run.end; ++j) {
-        const float dx = points.x[j] - centre[0], dy = points.y[j] - centre[1], dz = points.z[j] - centre[2];
-        held += dx * dx + dy * dy + dz * dz < radius_sq;
-      }
-  }
+  for (std::size_t i = step / 2; i < points.size(); i += step, ++balls)
+    held += countBall(points.tree(), points.sorted(), i, radius_sq, runs);
   return balls > 0 ? static_cast<double>(held) / static_cast<double>(balls) : 0.0;
 }
 
@@ -72,13 +63,12 @@ sumTwo(const kernels::Candidates& candidates, const SortedVectors<float>& probes
 
 } // namespace
 
-NormalTensors::NormalTensors(PointsView points, NormalsView normals, double radius, std::size_t threads)
+NormalTensors::NormalTensors(const PointIndex& index, NormalsView normals, double radius, std::size_t threads)
 {
+  const PointsView points = index.sorted();
   if (points.size == 0)
     return;
-  ClusterTree tree;
-  tree.fit(points, threads);
-  const double held = meanCount(points, tree, radius);
+  const double held = meanCount(index, radius);
   while (held > static_cast<double>(kMostData * stride_) && stride_ < points.size)
     stride_ *= 2;
   std::vector<std::uint32_t> places;
@@ -99,6 +89,7 @@ NormalTensors::NormalTensors(PointsView points, NormalsView normals, double radi
       products[c][k] = values[c];
   }
   const PointsView view = {probes.x.data(), probes.y.data(), probes.z.data(), places.size()};
+  ClusterTree tree;
   tree.fit(view, threads);
   const Neighborhoods near = findNeighborhoods(tree, view, radius, threads);
   for (std::size_t c = 0; c < 3; ++c)

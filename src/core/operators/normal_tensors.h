@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_gpf/core/views.h>
+#include <pcl_gpf/core/point_index.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +18,8 @@ struct NormalTensor {
 /** Means of n n^T over balls, for every point of a sorted cloud; neighbours on the curve share one where balls hold many points. */
 class NormalTensors {
 public:
-  /** \param[in] points sorted along the curve, followed by padding \param[in] normals unit vectors of free sign */
-  NormalTensors(PointsView points, NormalsView normals, double radius, std::size_t threads);
+  /** \param[in] normals unit vectors of free sign, in sorted order */
+  NormalTensors(const PointIndex& points, NormalsView normals, double radius, std::size_t threads);
 
   const NormalTensor&
   of(std::size_t sorted_place) const

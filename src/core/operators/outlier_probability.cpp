@@ -93,18 +93,6 @@ followsCurve(const SoaBuffer& places, const PointIndex& data)
   return places.size() == data.size() && lengthOfPath(places.view()) < kMuchLonger * lengthOfPath(data.sorted());
 }
 
-SoaBuffer
-inOrder(const SoaBuffer& from, const std::vector<std::uint32_t>& order)
-{
-  SoaBuffer to(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    to.x[k] = from.x[order[k]];
-    to.y[k] = from.y[order[k]];
-    to.z[k] = from.z[order[k]];
-  }
-  return to;
-}
-
 } // namespace
 
 std::vector<float>
@@ -126,7 +114,7 @@ outlierProbabilities(const OutlierProbabilityParameters& p, const PointIndex& da
     order = hilbertOrder(filtered.view(), threads);
   const AlignedArray<float> count =
       order.empty() ? countData(data, filtered, ball, threads, probabilities.data())
-                    : countData(data, inOrder(filtered, order), ball, threads, probabilities.data());
+                    : countData(data, elementsOf(filtered.view(), order), ball, threads, probabilities.data());
   for (std::size_t k = 0; k < filtered.size(); ++k) {
     const std::size_t place = order.empty() ? k : order[k];
     const double move = moves[place];

@@ -98,13 +98,7 @@ thinned(PointsView points, double cell_size)
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (i == 0 || cells[i].first != cells[i - 1].first)
       kept.push_back(cells[i].second);
-  SoaBuffer seeds(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    seeds.x[i] = points.x[kept[i]];
-    seeds.y[i] = points.y[kept[i]];
-    seeds.z[i] = points.z[kept[i]];
-  }
-  return seeds;
+  return elementsOf(points, kept);
 }
 
 /** Points moved onto the surface; those outside its domain or the lattice are left out. */

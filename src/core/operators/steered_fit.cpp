@@ -7,7 +7,7 @@
 #include "../check_range.h"
 #include "../merged_points.h"
 #include "../sorted_points.h"
-#include "normal_tensors.h"
+#include "steered_ellipsoids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,35 +108,6 @@ fitPlane(const Sums& s, std::size_t k, const Eigen::Vector3d& side, Eigen::Vecto
   return true;
 }
 
-/** The ellipsoids of the queries as matrices, and the balls that hold them. */
-struct Metrics {
-  SortedVectors<float> diagonal, mixed;
-  AlignedArray<float> reach_sq;
-};
-
-/** Rounding of the least eigenvalue must not cost a pair. */
-constexpr float kReachSlack = 1.01f;
-
-Metrics
-metricsOf(const SteeredFitParameters& p, const NormalTensors& tensors, const std::vector<std::uint32_t>& queries)
-{
-  const double longest = p.longest_share * p.radius;
-  const auto round = static_cast<float>(1.0 / (longest * longest));
-  const auto bend = static_cast<float>(p.bending_weight / (p.radius * p.radius));
-  Metrics metrics{SortedVectors<float>(queries.size()), SortedVectors<float>(queries.size()), AlignedArray<float>(queries.size() + kQueryBlock)};
-  for (std::size_t q = 0; q < queries.size(); ++q) {
-    const NormalTensor& t = tensors.of(queries[q]);
-    metrics.diagonal.x[q] = round + bend * t.xx;
-    metrics.diagonal.y[q] = round + bend * t.yy;
-    metrics.diagonal.z[q] = round + bend * t.zz;
-    metrics.mixed.x[q] = bend * t.yz;
-    metrics.mixed.y[q] = bend * t.xz;
-    metrics.mixed.z[q] = bend * t.xy;
-    metrics.reach_sq[q] = kReachSlack / (round + bend * t.least);
-  }
-  return metrics;
-}
-
 /** One pass over the rows of `places`, which are ascending in the order of the guide. */
 class Pass {
 public:
@@ -153,7 +124,7 @@ public:
   void
   run(const std::vector<std::uint8_t>& wanted)
   {
-    const NormalTensors tensors(guide_.sorted(), sortedNormals(), p_.direction_radius, threads_);
+    const NormalTensors tensors(guide_, sortedNormals(), p_.direction_radius, threads_);
     std::vector<std::uint32_t> queries; // sorted places
     for (std::size_t k = 0; k < guide_.size(); ++k) {
       if (wanted[guide_.order()[k]] != 0)
@@ -174,7 +145,7 @@ private:
   {
     const SortedVectors<float> points = gather<float>(guide_.sorted(), {}, queries, kFarAway, threads_);
     const SortedVectors<float> query_normals = gather<float>(sortedNormals(), {}, queries, 0.0f, threads_);
-    const Metrics metrics = metricsOf(p_, tensors, queries);
+    const SteeredEllipsoids metrics = steeredEllipsoids(p_, tensors, queries);
     const Neighborhoods near =
         findNeighborhoods(data_.merged.empty() ? guide_.tree() : data_.merged.tree,
                           {points.x.data(), points.y.data(), points.z.data(), queries.size()}, metrics.reach_sq.data(), threads_);

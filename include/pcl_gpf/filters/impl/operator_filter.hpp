@@ -6,6 +6,7 @@
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/filters/operator_filter.h>
+#include <pcl_gpf/filters/seed_points.h>
 
 #include <pcl/console/print.h>
 
@@ -106,9 +107,9 @@ OperatorFilter<PointT>::filterPoints(PointCloud& output, FilterStatistics& stati
     throw InvalidParameter("no point has a usable normal; fill the normals before, "
                            "for example with pcl_gpf::estimateNormals() or pcl::NormalEstimationOMP");
 
-  FilteredPoints filtered = seedPoints(packed);
+  FilteredPoints filtered = detail::seedPoints(packed, keptPoints(packed));
   const bool degenerate = packed.size() < kFewestPoints || packed.all_identical;
-  warnAbout(packed, degenerate);
+  detail::warnAboutPoints(this->getClassName(), packed, degenerate);
   if (!degenerate) {
     // As many ascending rows as V has are all of them.
     const std::vector<std::uint32_t>& rows = filtered.rows;
@@ -123,27 +124,9 @@ OperatorFilter<PointT>::filterPoints(PointCloud& output, FilterStatistics& stati
   else
     output.resize(filtered.kept.size());
   unpack(*this->input_, packed, filtered, output);
-  reportSeeds(packed, filtered.kept);
-}
-
-template <typename PointT> void
-OperatorFilter<PointT>::warnAbout(const PackedCloud& packed, bool degenerate) const
-{
-  const char* name = this->getClassName().c_str();
-  if (packed.size() == 0)
-    PCL_WARN("[pcl_gpf::%s::applyFilter] None of the %zu points is finite; nothing to filter.\n",
-             name,
-             packed.chosen.size());
-  else if (degenerate)
-    PCL_WARN("[pcl_gpf::%s::applyFilter] %zu points%s span no surface; they are copied.\n",
-             name,
-             packed.size(),
-             packed.all_identical ? " at one place" : "");
-  if (packed.points_without_normal > 0)
-    PCL_WARN("[pcl_gpf::%s::applyFilter] %zu of %zu points have no usable normal and are not filtered.\n",
-             name,
-             packed.points_without_normal,
-             packed.chosen.size());
+  sample_indices_ = detail::seedIndices(packed, filtered.kept);
+  if (this->extract_removed_indices_)
+    *this->removed_indices_ = detail::removedIndices(packed, filtered.kept);
 }
 
 template <typename PointT> std::vector<std::uint32_t>
@@ -159,46 +142,6 @@ OperatorFilter<PointT>::keepsOrganisation() const
 {
   const PointCloud& input = *this->input_;
   return this->fake_indices_ && std::size_t{input.width} * input.height == input.size();
-}
-
-template <typename PointT> FilteredPoints
-OperatorFilter<PointT>::seedPoints(const PackedCloud& packed) const
-{
-  std::vector<std::uint32_t> row_of(packed.chosen.size());
-  std::uint32_t rows = 0;
-  for (std::size_t i = 0; i < row_of.size(); ++i)
-    row_of[i] = packed.states[i] == PointState::Usable ? rows++ : rows;
-
-  FilteredPoints filtered;
-  filtered.kept = keptPoints(packed);
-  for (const std::uint32_t position : filtered.kept)
-    if (packed.states[position] == PointState::Usable)
-      filtered.rows.push_back(row_of[position]);
-  filtered.displacements = SoaBuffer(filtered.rows.size());
-  filtered.normals = SoaBuffer(filtered.rows.size());
-  for (std::size_t i = 0; i < filtered.rows.size(); ++i) {
-    filtered.normals.x[i] = packed.normals.x[filtered.rows[i]];
-    filtered.normals.y[i] = packed.normals.y[filtered.rows[i]];
-    filtered.normals.z[i] = packed.normals.z[filtered.rows[i]];
-  }
-  return filtered;
-}
-
-template <typename PointT> void
-OperatorFilter<PointT>::reportSeeds(const PackedCloud& packed, const std::vector<std::uint32_t>& kept)
-{
-  std::vector<bool> removed(packed.chosen.size(), true);
-  sample_indices_.reserve(kept.size());
-  for (const std::uint32_t position : kept) {
-    sample_indices_.push_back(packed.chosen[position]);
-    removed[position] = packed.states[position] == PointState::NonFinite;
-  }
-  if (!this->extract_removed_indices_)
-    return;
-  for (std::size_t i = 0; i < removed.size(); ++i)
-    if (removed[i])
-      this->removed_indices_->push_back(packed.chosen[i]);
-  std::sort(this->removed_indices_->begin(), this->removed_indices_->end());
 }
 
 } // namespace pcl_gpf
