@@ -28,8 +28,9 @@ tools/install_dependencies.sh ${install_options[@]+"${install_options[@]}"}
 jobs=$(nproc)
 passed=0
 failed=0
+failed_tests=()
 
-# Adds the figures of CTest's JUnit file to the sums; skipped tests count neither way.
+# Adds the figures of CTest's JUnit file to the sums; skipped tests count neither way. Keeps the names of failed tests.
 add_results() {
   local head number
   head=$(grep -m 1 -A 10 '<testsuite' "$1" | tr '\n' ' ' | sed 's/>.*//')
@@ -37,6 +38,10 @@ add_results() {
   for number in tests failures skipped disabled; do
     count[$number]=$(sed -n "s/.*[[:space:]]$number=\"\([0-9]*\)\".*/\1/p" <<<"$head")
   done
+  local name
+  while IFS= read -r name; do
+    failed_tests+=("$2: $name")
+  done < <(sed -n 's/.*<testcase name="\([^"]*\)".*status="fail".*/\1/p' "$1")
   failed=$((failed + count[failures]))
   passed=$((passed + count[tests] - count[failures] - count[skipped] - count[disabled]))
 }
@@ -51,7 +56,7 @@ run_preset() {
   rm -f "$results"
   ctest --preset "$preset" -j "$jobs" --output-junit "$results" || true
   [[ -s $results ]] || return 1
-  add_results "$results"
+  add_results "$results" "$preset"
   echo "== $preset: done in $((SECONDS - started)) s"
 }
 
@@ -60,6 +65,11 @@ for preset in "${presets[@]}"; do
     echo "== $preset: FAILED before its tests could run" >&2
     failed=$((failed + 1))
   fi
+done
+
+# At the end, where the part of a long log that people are shown has them.
+for failure in ${failed_tests[@]+"${failed_tests[@]}"}; do
+  echo "FAILED $failure"
 done
 
 echo "$passed passed, $failed failed"
