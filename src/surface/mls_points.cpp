@@ -23,6 +23,8 @@ using Mls = pcl::MovingLeastSquares<pcl::PointXYZ, pcl::PointNormal>; // compile
 constexpr double kMostPoints = 1e8;
 /** PCL numbers voxels by side^3 in 64 bits. */
 constexpr double kMostVoxelsASide = 1 << 20;
+/** Coordinates between which squares, and squares of those, stay floats. */
+constexpr float kSmallestExtent = 1e-15f, kLargestExtent = 1e15f;
 
 void
 require(bool holds, const char* name, double value, const char* range)
@@ -64,6 +66,9 @@ effectiveParameters(MLSUpsamplingParameters p, const pcl::PointCloud<pcl::PointX
     positions.z[i] = points[i].z;
     extent = std::max({extent, std::abs(points[i].x), std::abs(points[i].y), std::abs(points[i].z)});
   }
+  if (extent > 0.0f && !(extent >= kSmallestExtent && extent <= kLargestExtent))
+    throw UnsuitableData("moving least squares work in float, which cannot hold the squares of lengths below 1e-15 or above "
+                         "1e15; change the unit of the coordinates");
   const PointsView view = static_cast<const SoaBuffer&>(positions).view();
   if (!spansSurface(view))
     throw UnsuitableData(std::to_string(points.size()) +

@@ -178,6 +178,18 @@ TEST(MLSUpsampling, FarFromTheOriginItIsAsGood)
     EXPECT_LT(distance(position(far[i]), {near[i].x + 8192.0, near[i].y + 8192.0, near[i].z + 8192.0}), 2e-3);
 }
 
+TEST(MLSUpsampling, LengthsThatFloatCannotSquareAreRefused)
+{
+  for (const float unit : {1e25f, 1e-30f}) { // PCL divides by a voxel count of 0, or drops every point
+    const Cloud::Ptr cloud = ball(500);
+    for (Point& p : *cloud)
+      p.getVector3fMap() *= unit;
+    Mls mls;
+    EXPECT_THROW(run(mls, cloud, MLSMethod::VoxelGridDilation), pcl::ComputeFailedException) << unit;
+    EXPECT_THROW(run(mls, cloud, MLSMethod::RandomUniformDensity), pcl::ComputeFailedException) << unit;
+  }
+}
+
 TEST(MLSUpsampling, ParametersAndWorkAreCheckedBefore)
 {
   const Cloud::Ptr cloud = ball(1000);

@@ -43,7 +43,7 @@ struct MLSUpsamplingStatistics {
   * mls.process(dense);
   * \endcode
   * \throws pcl::BadArgumentException if a parameter or an index is out of range, pcl::ComputeFailedException if fewer than 3
-  * points are finite, all coincide, or the work would be excessive
+  * points are finite, all coincide, the extent is below 1e-15 or above 1e15, or the work would be excessive
   * Cost: PCL's; about 20 us a point. Thread safety: one object, one thread at a time. What each parameter means, its range and
   * default: MLSUpsamplingParameters.
   * \ingroup surface

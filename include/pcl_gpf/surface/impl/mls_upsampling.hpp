@@ -17,7 +17,7 @@ namespace pcl_gpf {
 
 namespace detail {
 
-/** \brief The finite points of the indices about the first of them, so that large coordinates cost no digits. */
+/** \brief The finite points of the indices about the centre of their box, so that large coordinates cost no digits. */
 template <typename PointT> pcl::PointCloud<pcl::PointXYZ>::Ptr
 finitePoints(const pcl::PointCloud<PointT>& cloud, const PackedCloud& packed, pcl::Indices& from, std::array<double, 3>& centre)
 {
