@@ -3,12 +3,16 @@
 
 #include "console.h"
 
+#include <pcl_gpf/core/dense_box.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/soa_buffer.h>
 #include <pcl_gpf/io/read_cloud.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace pcl_gpf {
 
@@ -78,12 +82,26 @@ requireUsable(const LoadedCloud& cloud)
     throw UnsuitableData("all " + std::to_string(cloud.finite) + " finite points are at one place");
 }
 
+BoundingBox
+denseBoxOf(const LoadedCloud& cloud)
+{
+  if (!hasExtent(cloud))
+    return cloud.box;
+  std::vector<std::size_t> rows;
+  rows.reserve(cloud.finite);
+  for (std::size_t i = 0; i < cloud.file.size(); ++i)
+    if (isFinite(cloud.coordinates, i))
+      rows.push_back(i);
+  const std::array<const std::vector<double>*, 3> axes{&cloud.coordinates.x, &cloud.coordinates.y, &cloud.coordinates.z};
+  return denseBox(cloud.box, rows.size(), [&](std::size_t k, std::size_t axis) { return (*axes[axis])[rows[k]]; });
+}
+
 CloudScale
 measureCloud(const LoadedCloud& cloud, unsigned threads)
 {
   if (!hasExtent(cloud))
     return {};
-  const LocalFrame frame = localFrame(cloud.box);
+  const LocalFrame frame = localFrame(cloud.box, denseBoxOf(cloud));
   CloudScale scale = measureScale(finitePoints(cloud, frame).view(), threads);
   scale.spacing = frame.lengthToWorld(scale.spacing);
   scale.noise = frame.lengthToWorld(scale.noise);

@@ -32,6 +32,10 @@ inspectCloud(CloudFile file);
 void
 requireUsable(const LoadedCloud& cloud);
 
+/** \brief Box of the dense part of the finite points (denseBox()), which one that strayed far does not widen. */
+BoundingBox
+denseBoxOf(const LoadedCloud& cloud);
+
 /** \brief Spacing, noise, diagonal and h0 of the finite points in cloud units; zeros for fewer than 2 different points. */
 CloudScale
 measureCloud(const LoadedCloud& cloud, unsigned threads);

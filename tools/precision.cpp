@@ -47,10 +47,11 @@ judgePrecision(const LoadedCloud& cloud, double spacing)
     return precision;
   const std::array<const std::vector<double>*, 3> axes{&cloud.coordinates.x, &cloud.coordinates.y, &cloud.coordinates.z};
   const std::array<const char*, 3> names{"x", "y", "z"};
+  const BoundingBox box = denseBoxOf(cloud); // one point that strayed far does not make the others coarse
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int field = cloud.file.findField(names[axis]);
     const bool is_float = field >= 0 && cloud.file.fields[static_cast<std::size_t>(field)].type == FieldType::Float32;
-    const double step = floatStep(std::max(std::abs(cloud.box.min[axis]), std::abs(cloud.box.max[axis])));
+    const double step = floatStep(std::max(std::abs(box.min[axis]), std::abs(box.max[axis])));
     if (step <= precision.step || step <= spacing / 100.0)
       continue;
     const bool is_double = field >= 0 && cloud.file.fields[static_cast<std::size_t>(field)].type == FieldType::Float64;

@@ -127,6 +127,22 @@ TEST(ToolRoundTrip, FloatsTooFarFromTheOriginAreRefused)
   EXPECT_EQ(nlohmann::json::parse(warned.out)["warnings"].size(), 1u);
 }
 
+TEST(ToolRoundTrip, OnePointFarAwayNeitherMakesTheOthersCoarseNorChangesTheirSpacing)
+{
+  const TemporaryFolder folder;
+  Shape shape = cube(4000, 0.004, 31);
+  save(toCloudFile(shape), folder / "near.ply");
+  shape.points[7] = {2e7, 0, 0}; // where floats are 2 apart
+  save(toCloudFile(shape), folder / "stray.ply");
+  const auto spacing = [&](const char* name) {
+    return nlohmann::json::parse(runTool({"info", folder / name, "--json"}).out)["spacing"].get<double>();
+  };
+  EXPECT_NEAR(spacing("stray.ply"), spacing("near.ply"), 0.02 * spacing("near.ply"));
+  const ToolRun run = runTool({"filter", folder / "stray.ply", "-o", folder / "out.ply", "--radius", "8x", "-q"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err.find("quantised"), std::string::npos) << run.err;
+}
+
 TEST(ToolRoundTrip, TheNumberOfThreadsChangesNoByte)
 {
   TemporaryFolder folder;
