@@ -16,4 +16,8 @@ positionsOf(const CloudCoordinates& coordinates);
 std::vector<Position>
 normalsOf(const CloudFile& cloud);
 
+/** \brief Whether any normal in the file has a direction: many programs write fields of zeros. */
+bool
+hasUsableNormal(const CloudFile& cloud);
+
 } // namespace pcl_gpf

@@ -86,6 +86,19 @@ TEST(ToolMesh, WithoutNormalsTheyAreEstimatedOrientedAndSaid)
   }
 }
 
+TEST(ToolMesh, NormalsThatAreAllZeroAreEstimatedLikeMissingOnes)
+{
+  const TemporaryFolder folder;
+  CloudFile cloud = colouredSphere(false);
+  for (const char* name : {"normal_x", "normal_y", "normal_z"})
+    cloud.addField(name, FieldType::Float32);
+  save(cloud, folder / "zeros.ply");
+  const ToolRun run = runTool({"mesh", folder / "zeros.ply", "-o", folder / "out.ply", "--resolution", "40"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("no normals"), std::string::npos) << run.err;
+  EXPECT_EQ(runTool({"mesh", folder / "zeros.ply", "-o", folder / "no.ply", "--orientation", "file"}).exit_code, 5);
+}
+
 TEST(ToolMesh, RefusesBeforeTheWork)
 {
   const TemporaryFolder folder;

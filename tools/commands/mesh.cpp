@@ -6,6 +6,7 @@
 #include "../mesh_report.h"
 #include "../json_report.h"
 #include "../option_groups.h"
+#include "../positions.h"
 #include "../progress.h"
 #include "../stopwatch.h"
 #include "commands.h"
@@ -40,9 +41,9 @@ void
 chooseNormals(const Options& options, const LoadedCloud& cloud, MeshParameters& parameters, FilterInput& input, MeshRun& run,
               Console& console)
 {
-  const bool in_file = cloud.file.hasNormals();
+  const bool in_file = hasUsableNormal(cloud.file);
   if (options.text("orientation") == "file" && !in_file)
-    throw UnsuitableData("--orientation file: the input has no fields normal_x normal_y normal_z");
+    throw UnsuitableData("--orientation file: the input has no fields normal_x normal_y normal_z, or nothing but zeros and NaN in them");
   input = filterInput(cloud, in_file);
   run.normals = in_file ? "file" : "estimated";
   if (in_file)
