@@ -162,6 +162,24 @@ TEST(MarchingCubesRIMLS, RefusesBeforeTheWorkAndSaysWhy)
   EXPECT_NE(message(mesher).find("3 points"), std::string::npos);
 }
 
+TEST(MarchingCubesRIMLS, TheOutputMayBeTheInput)
+{
+  const auto cloud = toCloud<pcl::PointNormal>(sphere(2000));
+  pcl_gpf::MarchingCubesRIMLS<pcl::PointNormal> rimls;
+  rimls.setInputCloud(cloud);
+  rimls.setResolution(20);
+  pcl::PointCloud<pcl::PointNormal> vertices;
+  std::vector<pcl::Vertices> polygons, in_place;
+  rimls.reconstruct(vertices, polygons);
+  rimls.setScale(0);
+  EXPECT_THROW(rimls.reconstruct(*cloud, in_place), pcl::BadArgumentException);
+  EXPECT_EQ(cloud->size(), 2000u);
+  rimls.setScale(6);
+  rimls.reconstruct(*cloud, in_place);
+  EXPECT_EQ(cloud->size(), vertices.size());
+  EXPECT_EQ(in_place.size(), polygons.size());
+}
+
 TEST(MarchingCubesRIMLS, CanBeCancelled)
 {
   Mesher mesher;

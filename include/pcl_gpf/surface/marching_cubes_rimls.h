@@ -42,7 +42,9 @@ struct MarchingCubesRIMLSStatistics {
  * - Closed where the points are. There is no sheet beyond the support: elsewhere the mesh ends beside the last points.
  * - The finite points of setIndices() with a normal make the surface, all points by default.
  * - No input cloud: an error message and an empty output; nothing finite: a warning and an empty output.
- * - After cancellation and exceptions the output is empty, and the object can be used again.
+ * - The cloud of vertices may be the input cloud itself.
+ * - After cancellation and exceptions the output is empty (a cloud that is the input stays after an exception), and the object can
+ *   be used again.
  * \note Normals must be oriented consistently. If a tenth of them or more contradict their surface, reconstruct() throws;
  * setCheckOrientation() leaves that out.
  * \note Of the base class's settings, setGridResolution() counts by its largest number: cells are cubes.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace pcl_gpf {
 
@@ -78,7 +79,9 @@ template <typename PointT> void
 MarchingCubesRIMLS<PointT>::performReconstruction(PointCloud& points, std::vector<pcl::Vertices>& polygons)
 {
   const auto start = std::chrono::steady_clock::now();
-  points.clear();
+  PointCloud vertices;
+  if (&points != this->input_.get()) // the output may be the input
+    points.clear();
   polygons.clear();
   corresponding_.clear();
   statistics_ = MarchingCubesRIMLSStatistics();
@@ -94,12 +97,15 @@ MarchingCubesRIMLS<PointT>::performReconstruction(PointCloud& points, std::vecto
       throw InvalidParameter("no point has a usable normal; fill the normals before, for example with pcl_gpf::estimateNormals(), "
                              "and orient them");
     if (packed.size() > 0)
-      writeMesh(packed, makeMesh(packed), points, polygons);
+      writeMesh(packed, makeMesh(packed), vertices, polygons);
     else
       PCL_WARN("[pcl_gpf::%s::reconstruct] None of the %zu points is finite; the mesh is empty.\n", getClassName().c_str(),
                packed.chosen.size());
+    vertices.header = this->input_->header;
+    points = std::move(vertices);
   }
   catch (const Cancelled&) {
+    points.clear();
     statistics_.cancelled = true;
     PCL_WARN("[pcl_gpf::%s::reconstruct] Cancelled by the progress callback; the mesh is empty.\n", getClassName().c_str());
   }
