@@ -108,6 +108,8 @@ limitMoves(const DenoiseParameters& wanted, double noise, double spacing, const 
   result.limited_points = 0;
   for (std::size_t k = 0; k < moves.size(); ++k)
     result.limited_points += cutMove(longest, k, moves, cloud.displacements);
+  if (longest == 0.0) // nothing was taken out
+    std::fill(cloud.sigma.begin(), cloud.sigma.end(), 0.0);
   result.max_move = result.max_iteration_move = frame.lengthToWorld(longest);
   result.parameters.push_back(originOf(wanted, result.max_move));
   if (!before_gaps || std::isinf(longest))

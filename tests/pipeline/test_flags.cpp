@@ -133,6 +133,14 @@ TEST(DenoiseFlags, sigmaTellsQuietFromNoisyPartsAndNoisyOnesAreNoOutliers)
   EXPECT_LE(alarms, 0.005 * static_cast<double>(points.size()));
 }
 
+TEST(DenoiseFlags, noNoiseIsTakenOutOfACloudThatStays)
+{
+  const Columns cloud(cube(48, 0.02, 3).points); // too few points to tell noise from shape
+  const DenoiseResult result = denoise(cloud.input(), withEverything());
+  ASSERT_EQ(result.max_move, 0.0);
+  EXPECT_EQ(result.sigma, std::vector<double>(48, 0.0));
+}
+
 TEST(DenoiseFlags, doNotChangeWithThreads)
 {
   const Columns cloud(sphereWithOutliers(8000, 25));
