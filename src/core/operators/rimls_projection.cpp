@@ -2,6 +2,7 @@
 #include <pcl_gpf/core/errors.h>
 
 #include "rimls_surface.h"
+#include "rimls_work.h"
 
 #include <cmath>
 #include <limits>
@@ -122,6 +123,7 @@ RimlsSurface::project(MutableVectorsView positions, MutableVectorsView normals, 
     if (progress && !progress(fraction))
       throw Cancelled();
   };
+  refuseExcessiveProjection(surface.parameters, *surface.index, surface.spacing, positions.size);
   const auto accuracy = static_cast<float>(surface.parameters.accuracy * surface.spacing);
   Walk walk(positions, resolveThreads(surface.parameters.number_of_threads));
   std::vector<std::uint32_t> walkers(walk.order.size());

@@ -19,7 +19,9 @@ constexpr double kRadiusInSpacings = 1.128;
 constexpr std::size_t kProbes = 64;
 /** Pairs that a cell costs for each point in the ball: its corners and its vertices, some fits for each. */
 constexpr double kPairsPerCell = 25.0;
-/** Rough cost of one on one thread. */
+/** Fits until a position has arrived. */
+constexpr double kFitsPerPosition = 8.0;
+/** Rough cost of a pair on one thread. */
 constexpr double kSecondsPerPair = 2e-9;
 /** More points in the ball and more seconds than these together are taken for a mistaken radius. */
 constexpr double kManyPoints = 5000.0, kLongestSeconds = 100.0;
@@ -55,17 +57,29 @@ pointsInBall(const PointIndex& points, double radius)
   return probes > 0 ? found / static_cast<double>(probes) : 0.0;
 }
 
+void
+refuse(double in_ball, double pairs, const char* work, const char* cure)
+{
+  const double seconds = pairs * kSecondsPerPair;
+  if (in_ball > kManyPoints && seconds > kLongestSeconds)
+    throw ExcessiveWork("the support radius holds about " + rounded(in_ball) + " points, " + work + " takes " + rounded(pairs / 1e9) +
+                        " billion pairs: roughly " + rounded(seconds) + " s on one thread; choose a smaller radius or scale" + cure);
+}
+
 } // namespace
 
 void
 refuseExcessiveMeshWork(const RimlsParameters& rimls, const PointIndex& points, double spacing, double cells)
 {
   const double in_ball = pointsInBall(points, supportRadius(rimls, spacing));
-  const double pairs = in_ball * cells * kPairsPerCell, seconds = pairs * kSecondsPerPair;
-  if (in_ball > kManyPoints && seconds > kLongestSeconds)
-    throw ExcessiveWork("the support radius holds about " + rounded(in_ball) + " points, the mesh takes " +
-                        rounded(pairs / 1e9) + " billion pairs: roughly " + rounded(seconds) +
-                        " s on one thread; choose a smaller radius or scale, or a lower resolution");
+  refuse(in_ball, in_ball * cells * kPairsPerCell, "the mesh", ", or a lower resolution");
+}
+
+void
+refuseExcessiveProjection(const RimlsParameters& rimls, const PointIndex& points, double spacing, std::size_t positions)
+{
+  const double in_ball = pointsInBall(points, supportRadius(rimls, spacing));
+  refuse(in_ball, in_ball * static_cast<double>(positions) * kFitsPerPosition, "the projection", "");
 }
 
 } // namespace pcl_gpf

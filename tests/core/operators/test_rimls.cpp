@@ -336,6 +336,21 @@ TEST(Rimls, refusesParametersOutOfRange)
   validate(RimlsParameters());
 }
 
+TEST(Rimls, refusesToProjectWithARadiusThatHoldsEverything)
+{
+  const std::size_t count = 120000;
+  SoaBuffer points(count), normals(count);
+  SplitMix64 random(1);
+  for (std::size_t i = 0; i < count; ++i) {
+    points.x[i] = static_cast<float>(random.uniform()), points.y[i] = static_cast<float>(random.uniform());
+    normals.z[i] = 1.0f;
+  }
+  RimlsParameters parameters;
+  parameters.radius = 2.0;
+  const RimlsSurface surface(parameters, points.view(), normals.view());
+  EXPECT_THROW(surface.project(points.view(), normals.view(), nullptr, {}, [](double) { return false; }), ExcessiveWork);
+}
+
 TEST(Rimls, canBeCancelled)
 {
   const LocalCloud cloud = toLocalCloud(turned(sphere(1000, 0.01, 3)));
