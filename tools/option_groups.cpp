@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/io/atomic_file.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -152,8 +153,13 @@ checkOutputHolds(const CloudFile& cloud, const Options& options)
 void
 checkReport(const Options& options)
 {
-  if (options.given("json"))
-    checkWritable(options.text("json"), options.given("overwrite"));
+  if (!options.given("json"))
+    return;
+  const std::string& report = options.text("json");
+  const std::vector<std::string>& inputs = options.files();
+  if (report != "-" && std::find(inputs.begin(), inputs.end(), report) != inputs.end())
+    throw UsageError("the report would replace the input '" + report + "'; give --json=FILE another name");
+  checkWritable(report, options.given("overwrite"));
 }
 
 void

@@ -58,8 +58,8 @@ writeOptions(const Options& options);
 void
 checkOutputHolds(const CloudFile& cloud, const Options& options);
 
-/** \brief Asks before any work whether the file of --json, if there is one, can be written.
- * \throws IoError (kind Unwritable) */
+/** \brief Asks before any work whether the file of --json, if there is one, can be written and is not an input.
+ * \throws UsageError, IoError (kind Unwritable) */
 void
 checkReport(const Options& options);
 

@@ -123,6 +123,7 @@ TEST(ToolOptions, TenThousandArgumentsAreRefused)
 TEST(ToolOptions, CloudAndReportCannotShareOneTarget)
 {
   expectUsageError({"filter", "in.pcd", "-o", "-", "--json"}, {"--json=FILE"});
+  expectUsageError({"filter", "in.pcd", "-o", "out.pcd", "--json=in.pcd", "--overwrite"}, {"in.pcd", "--json=FILE"});
 }
 
 TEST(ToolOptions, TheTablesOfTheDocumentationAreThoseOfTheTool)
