@@ -16,44 +16,56 @@ namespace {
 constexpr unsigned kBitsPerAxis = 21; // three axes fill a 63-bit key
 constexpr std::size_t kPointsPerTask = 16384;
 
-/** Points whose keys are computed together: loops over them become vector instructions of any instruction set. */
-constexpr std::size_t kKeysAtOnce = 16;
-using Cells = std::array<std::array<std::uint32_t, kKeysAtOnce>, 3>; ///< a coordinate each
+/** Points whose keys are computed together: compilers make loops over so many into vector instructions. */
+constexpr std::size_t kKeysAtOnce = 64;
+using Coordinates = std::array<std::uint32_t, kKeysAtOnce>;
+struct Cells {
+  Coordinates x{}, y{}, z{};
+};
 
-/** All ones in each lane whose bit is set. */
+/** All ones where the bit is set. */
 std::uint32_t
 onesWhere(std::uint32_t value, unsigned place)
 {
   return 0u - (value >> place & 1u);
 }
 
-/** Cells to indices along the Hilbert curve, their bits still apart (Skilling, "Programming the Hilbert curve", 2004). */
+/** Inverts the low bits of x where the bit of another axis is set, else exchanges them with that axis'. */
 void
-transpose(Cells& cells)
+invertOrExchange(Coordinates& x, Coordinates& other, unsigned place)
+{
+  const std::uint32_t below = (1u << place) - 1;
+  for (std::size_t k = 0; k < kKeysAtOnce; ++k) {
+    const std::uint32_t set = onesWhere(other[k], place);
+    const std::uint32_t exchanged = (x[k] ^ other[k]) & below & ~set;
+    x[k] ^= (below & set) | exchanged;
+    other[k] ^= exchanged;
+  }
+}
+
+/** Cells to indices along the Hilbert curve, whose bits are still apart (Skilling, "Programming the Hilbert curve", 2004). */
+void
+followCurve(Cells& cells)
 {
   for (unsigned place = kBitsPerAxis - 1; place > 0; --place) {
-    const std::uint32_t below = (1u << place) - 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t k = 0; k < kKeysAtOnce; ++k) {
-        // Branch-free: invert the low bits of x when this axis' bit is set, else exchange them with this axis'.
-        const std::uint32_t set = onesWhere(cells[axis][k], place);
-        const std::uint32_t exchanged = (cells[0][k] ^ cells[axis][k]) & below & ~set;
-        cells[0][k] ^= (below & set) | exchanged;
-        if (axis > 0)
-          cells[axis][k] ^= exchanged;
-      }
+    for (std::uint32_t& x : cells.x)
+      x ^= ((1u << place) - 1) & onesWhere(x, place);
+    invertOrExchange(cells.x, cells.y, place);
+    invertOrExchange(cells.x, cells.z, place);
   }
-  std::array<std::uint32_t, kKeysAtOnce> flip{};
   for (std::size_t k = 0; k < kKeysAtOnce; ++k) {
-    cells[1][k] ^= cells[0][k];
-    cells[2][k] ^= cells[1][k];
+    cells.y[k] ^= cells.x[k];
+    cells.z[k] ^= cells.y[k];
   }
+  Coordinates flip{};
   for (unsigned place = kBitsPerAxis - 1; place > 0; --place)
     for (std::size_t k = 0; k < kKeysAtOnce; ++k)
-      flip[k] ^= ((1u << place) - 1) & onesWhere(cells[2][k], place);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t k = 0; k < kKeysAtOnce; ++k)
-      cells[axis][k] ^= flip[k];
+      flip[k] ^= ((1u << place) - 1) & onesWhere(cells.z[k], place);
+  for (std::size_t k = 0; k < kKeysAtOnce; ++k) {
+    cells.x[k] ^= flip[k];
+    cells.y[k] ^= flip[k];
+    cells.z[k] ^= flip[k];
+  }
 }
 
 /** Two zero bits between neighbouring bits. */
@@ -153,17 +165,17 @@ hilbertOrder(PointsView points, std::size_t threads)
     const auto cell = [&](float p, std::size_t axis) {
       return static_cast<std::uint32_t>(std::clamp((p - box.min[axis]) * to_cell, 0.0, kLastCell));
     };
-    Cells cells{};
+    Cells cells;
     for (std::size_t first = begin; first < end; first += kKeysAtOnce) {
       const std::size_t count = std::min(end - first, kKeysAtOnce);
       for (std::size_t k = 0; k < count; ++k) {
-        cells[0][k] = cell(points.x[first + k], 0);
-        cells[1][k] = cell(points.y[first + k], 1);
-        cells[2][k] = cell(points.z[first + k], 2);
+        cells.x[k] = cell(points.x[first + k], 0);
+        cells.y[k] = cell(points.y[first + k], 1);
+        cells.z[k] = cell(points.z[first + k], 2);
       }
-      transpose(cells);
+      followCurve(cells);
       for (std::size_t k = 0; k < count; ++k) {
-        keys[first + k] = spreadBits(cells[0][k]) << 2 | spreadBits(cells[1][k]) << 1 | spreadBits(cells[2][k]);
+        keys[first + k] = spreadBits(cells.x[k]) << 2 | spreadBits(cells.y[k]) << 1 | spreadBits(cells.z[k]);
         order[first + k] = static_cast<std::uint32_t>(first + k);
       }
     }

@@ -42,7 +42,7 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex&
 , input_size_(points.size())
 , projection_(points, unit_normals, plan.radius, plan.angle, plan.sign_invariant)
 , search_(plan.edge_sensitivity, plan.sign_invariant)
-, cloud_(points, unit_normals, plan.threads)
+, cloud_(points, unit_normals, placesWithoutCopies(points.sorted(), unit_normals, kLeastClearance, plan.sign_invariant), plan.threads)
 , reach_(static_cast<float>(plan.radius))
 {
   const float least = std::max(kLeastClearance, static_cast<float>(plan.least_clearance));
@@ -54,13 +54,13 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex&
 void
 UpsamplingRounds::searchGaps()
 {
-  const auto first_new = static_cast<std::uint32_t>(searched_);
+  const std::uint32_t first_new = searched_;
   Gap* gaps = cloud_.gaps().data();
   parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     GapSearch::Scratch scratch;
     search_.widest(cloud_, begin, end, first_new, reach_, static_cast<float>(plan_.radius), scratch, gaps + kGapsOfPoint * begin);
   });
-  searched_ = cloud_.size();
+  searched_ = cloud_.numberCount();
   least_filled_ = kUnknown;
 }
 
