@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kGapsPerTask = 1024;
 /** Gaps are looked at together while the box of their bases is at most this many of their clearances wide; those of one descent into
  * the tree while theirs is so many. */
-constexpr float kWidestBox = 6.0f, kWidestDescent = 24.0f;
+constexpr float kWidestBox = 4.0f, kWidestDescent = 24.0f;
 
 /** The rivals' bases with the tree over them, in the order given. */
 struct Rivals {
