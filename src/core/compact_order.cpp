@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace pcl_gpf {
 
@@ -35,6 +36,26 @@ longestAxis(const Member* begin, const Member* end)
   return longest;
 }
 
+/** Up to this many members are sorted by counting, which has no branches to guess. */
+constexpr std::size_t kFew = 16;
+
+void
+sortFew(Member* begin, std::size_t size, std::size_t axis)
+{
+  std::array<std::size_t, kFew> place{};
+  for (std::size_t i = 1; i < size; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const float a = begin[i].position[axis], b = begin[j].position[axis];
+      const bool before = (a < b) | ((a == b) & (begin[i].rank < begin[j].rank));
+      place[j] += before;
+      place[i] += !before;
+    }
+  std::array<Member, kFew> sorted;
+  for (std::size_t k = 0; k < size; ++k)
+    sorted[place[k]] = begin[k];
+  std::copy(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(size), begin);
+}
+
 /** The left part is the largest power of two below the size, so that all cuts fall on multiples of the parts' sizes. Which points go
  * left does not depend on the standard library: no two members are equal. */
 void
@@ -42,16 +63,20 @@ halve(Member* begin, Member* end)
 {
   const std::size_t size = static_cast<std::size_t>(end - begin);
   if (size <= 2) {
-    std::sort(begin, end, [](const Member& a, const Member& b) { return a.rank < b.rank; });
+    if (size == 2 && begin[1].rank < begin[0].rank)
+      std::swap(begin[0], begin[1]);
     return;
   }
   std::size_t left = 2;
   while (2 * left < size)
     left *= 2;
   const std::size_t axis = longestAxis(begin, end);
-  std::nth_element(begin, begin + left, end, [axis](const Member& a, const Member& b) {
-    return a.position[axis] < b.position[axis] || (a.position[axis] == b.position[axis] && a.rank < b.rank);
-  });
+  if (size <= kFew)
+    sortFew(begin, size, axis);
+  else
+    std::nth_element(begin, begin + left, end, [axis](const Member& a, const Member& b) {
+      return a.position[axis] < b.position[axis] || (a.position[axis] == b.position[axis] && a.rank < b.rank);
+    });
   halve(begin, begin + left);
   halve(begin + left, end);
 }

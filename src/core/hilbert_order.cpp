@@ -16,36 +16,67 @@ namespace {
 constexpr unsigned kBitsPerAxis = 21; // three axes fill a 63-bit key
 constexpr std::size_t kPointsPerTask = 16384;
 
-/** Index along the Hilbert curve of a cell (Skilling, "Programming the Hilbert curve", 2004). */
-std::uint64_t
-hilbertKey(std::array<std::uint32_t, 3> cell)
+/** Points whose keys are computed together: compilers make loops over so many into vector instructions. */
+constexpr std::size_t kKeysAtOnce = 64;
+using Coordinates = std::array<std::uint32_t, kKeysAtOnce>;
+struct Cells {
+  Coordinates x{}, y{}, z{};
+};
+
+/** All ones where the bit is set. */
+std::uint32_t
+onesWhere(std::uint32_t value, unsigned place)
 {
-  for (std::uint32_t bit = 1u << (kBitsPerAxis - 1); bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Branch-free: invert the low bits of x when this axis' bit is set, else exchange them with this axis'.
-      const std::uint32_t set = 0u - static_cast<std::uint32_t>((cell[axis] & bit) != 0);
-      const std::uint32_t exchanged = (cell[0] ^ cell[axis]) & below & ~set;
-      cell[0] ^= (below & set) | exchanged;
-      cell[axis] ^= exchanged;
-    }
+  return 0u - (value >> place & 1u);
+}
+
+/** Inverts the low bits of x where the bit of another axis is set, else exchanges them with that axis'. */
+void
+invertOrExchange(Coordinates& x, Coordinates& other, unsigned place)
+{
+  const std::uint32_t below = (1u << place) - 1;
+  for (std::size_t k = 0; k < kKeysAtOnce; ++k) {
+    const std::uint32_t set = onesWhere(other[k], place);
+    const std::uint32_t exchanged = (x[k] ^ other[k]) & below & ~set;
+    x[k] ^= (below & set) | exchanged;
+    other[k] ^= exchanged;
   }
-  cell[1] ^= cell[0];
-  cell[2] ^= cell[1];
-  std::uint32_t flip = 0;
-  for (std::uint32_t bit = 1u << (kBitsPerAxis - 1); bit > 1; bit >>= 1)
-    flip ^= (bit - 1) & (0u - static_cast<std::uint32_t>((cell[2] & bit) != 0));
-  std::uint64_t key = 0;
-  const auto spread = [](std::uint64_t v) { // two zero bits between neighbouring bits
-    v = (v | v << 32) & 0x1f00000000ffffull;
-    v = (v | v << 16) & 0x1f0000ff0000ffull;
-    v = (v | v << 8) & 0x100f00f00f00f00full;
-    v = (v | v << 4) & 0x10c30c30c30c30c3ull;
-    return (v | v << 2) & 0x1249249249249249ull;
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    key |= spread(cell[axis] ^ flip) << (2 - axis);
-  return key;
+}
+
+/** Cells to indices along the Hilbert curve, whose bits are still apart (Skilling, "Programming the Hilbert curve", 2004). */
+void
+followCurve(Cells& cells)
+{
+  for (unsigned place = kBitsPerAxis - 1; place > 0; --place) {
+    for (std::uint32_t& x : cells.x)
+      x ^= ((1u << place) - 1) & onesWhere(x, place);
+    invertOrExchange(cells.x, cells.y, place);
+    invertOrExchange(cells.x, cells.z, place);
+  }
+  for (std::size_t k = 0; k < kKeysAtOnce; ++k) {
+    cells.y[k] ^= cells.x[k];
+    cells.z[k] ^= cells.y[k];
+  }
+  Coordinates flip{};
+  for (unsigned place = kBitsPerAxis - 1; place > 0; --place)
+    for (std::size_t k = 0; k < kKeysAtOnce; ++k)
+      flip[k] ^= ((1u << place) - 1) & onesWhere(cells.z[k], place);
+  for (std::size_t k = 0; k < kKeysAtOnce; ++k) {
+    cells.x[k] ^= flip[k];
+    cells.y[k] ^= flip[k];
+    cells.z[k] ^= flip[k];
+  }
+}
+
+/** Two zero bits between neighbouring bits. */
+std::uint64_t
+spreadBits(std::uint64_t v)
+{
+  v = (v | v << 32) & 0x1f00000000ffffull;
+  v = (v | v << 16) & 0x1f0000ff0000ffull;
+  v = (v | v << 8) & 0x100f00f00f00f00full;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ull;
+  return (v | v << 2) & 0x1249249249249249ull;
 }
 
 constexpr unsigned kDigitBits = 11;
@@ -134,9 +165,19 @@ hilbertOrder(PointsView points, std::size_t threads)
     const auto cell = [&](float p, std::size_t axis) {
       return static_cast<std::uint32_t>(std::clamp((p - box.min[axis]) * to_cell, 0.0, kLastCell));
     };
-    for (std::size_t i = begin; i < end; ++i) {
-      keys[i] = hilbertKey({cell(points.x[i], 0), cell(points.y[i], 1), cell(points.z[i], 2)});
-      order[i] = static_cast<std::uint32_t>(i);
+    Cells cells;
+    for (std::size_t first = begin; first < end; first += kKeysAtOnce) {
+      const std::size_t count = std::min(end - first, kKeysAtOnce);
+      for (std::size_t k = 0; k < count; ++k) {
+        cells.x[k] = cell(points.x[first + k], 0);
+        cells.y[k] = cell(points.y[first + k], 1);
+        cells.z[k] = cell(points.z[first + k], 2);
+      }
+      followCurve(cells);
+      for (std::size_t k = 0; k < count; ++k) {
+        keys[first + k] = spreadBits(cells.x[k]) << 2 | spreadBits(cells.y[k]) << 1 | spreadBits(cells.z[k]);
+        order[first + k] = static_cast<std::uint32_t>(first + k);
+      }
     }
   });
   radixSort(keys, order, threads);

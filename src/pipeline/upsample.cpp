@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/analysis/surface_extent.h>
+#include <pcl_gpf/core/analysis/work_estimate.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/pipeline/upsample.h>
 #include <pcl_gpf/surface/mls_points.h>
@@ -128,14 +129,19 @@ factorOf(const EdgeAwareUpsamplingParameters& p, std::size_t input, double spaci
 
 /** What can be refused before the work. */
 void
-requireRoomToFill(const Packed& packed, const EdgeAwareUpsamplingParameters& parameters)
+requireRoomToFill(const Packed& packed, const UpsampleParameters& p)
 {
+  EdgeAwareUpsamplingParameters parameters = p.edge_aware;
   const std::size_t count = packed.rows.size();
   if (count < 3)
     throw UnsuitableData(std::to_string(count) + " finite points make no surface to fill; it takes 3");
   if (!spansSurface(packed.index->sorted()))
     throw UnsuitableData("the " + std::to_string(count) + " finite points lie on one line; there is no surface to fill");
   targetCount(parameters, count);
+  parameters.radius = packed.frame.lengthToLocal(parameters.radius);
+  parameters.spacing = packed.frame.lengthToLocal(parameters.spacing);
+  if (p.method == UpsamplingMethod::EdgeAware && parameters.radius > 0.0)
+    refuseExcessiveWork(estimateWork(parameters, *packed.index));
 }
 
 } // namespace
@@ -144,7 +150,7 @@ void
 checkUpsamplable(const DenoiseInput& input, const UpsampleParameters& parameters)
 {
   validate(parameters.edge_aware);
-  requireRoomToFill(packPositions(input, false, parameters.edge_aware.number_of_threads), parameters.edge_aware);
+  requireRoomToFill(packPositions(input, false, parameters.edge_aware.number_of_threads), parameters);
 }
 
 UpsampleResult
@@ -155,7 +161,7 @@ upsample(const DenoiseInput& input, const UpsampleParameters& parameters, const 
   UpsampleResult result;
   Packed packed = packPositions(input, false, parameters.edge_aware.number_of_threads);
   result.non_finite_points = input.size - packed.rows.size();
-  requireRoomToFill(packed, parameters.edge_aware);
+  requireRoomToFill(packed, parameters);
   result.spacing = packed.frame.lengthToWorld(estimateSpacing(*packed.index, parameters.edge_aware.number_of_threads));
   completeNormals(input, packed, parameters.edge_aware.number_of_threads, progress, result);
   result.seconds_normals = watch.lap();

@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/pipeline/denoise.h>
+#include <pcl_gpf/pipeline/upsample.h>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,15 @@ TEST(Foresight, refusesPlaneFitsOverTheWholeCloud)
   p.normals.radius = kMistake;
   p.normals.merge_above = 0;
   expectRefusal([&](const StageProgress& progress) { denoiseNormals(cloud.input(), p, progress); }, "normals.radius");
+}
+
+TEST(Foresight, refusesUpsamplingRadiusBeforeNormalsAreEstimated)
+{
+  const Columns cloud(cube(100000, 0.01, 3).points);
+  UpsampleParameters p;
+  p.edge_aware.radius = kMistake;
+  expectRefusal([&](const StageProgress& progress) { upsample(cloud.input(), p, progress); }, "upsampling.radius");
+  EXPECT_THROW(checkUpsamplable(cloud.input(), p), ExcessiveWork);
 }
 
 TEST(Foresight, refusesMoreRowsThanIndicesTellApartBeforeReadingOne)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace pcl_gpf {
@@ -29,26 +30,29 @@ public:
     const std::size_t window = std::min(points_.size(), 2 * kNeighbor + 1);
     const std::size_t begin = std::min(i - std::min(i, kNeighbor), points_.size() - window);
     runs_.assign(1, {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + window)});
-    const float bound = smallest(i, neighbor);
+    const float bound = smallest(i, neighbor, std::numeric_limits<float>::infinity());
     if (!std::isfinite(bound))
       return bound; // squares that float does not hold: the tree would find too few
     const PointsView p = points_.sorted();
     const std::array<float, 3> position{p.x[i], p.y[i], p.z[i]};
     runs_.clear();
     points_.tree().collectRuns({position, position}, std::sqrt(bound) * 1.0001f, runs_);
-    return smallest(i, neighbor);
+    return smallest(i, neighbor, bound);
   }
 
 private:
+  /** Of the squared distances up to a bound, of which there are more than `rank`. */
   float
-  smallest(std::size_t i, std::size_t rank)
+  smallest(std::size_t i, std::size_t rank, float bound)
   {
     const PointsView p = points_.sorted();
     distances_sq_.clear();
     for (const Run run : runs_)
       for (std::uint32_t j = run.begin; j < run.end; ++j) {
         const float dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i], dz = p.z[j] - p.z[i];
-        distances_sq_.push_back(dx * dx + dy * dy + dz * dz);
+        const float distance_sq = dx * dx + dy * dy + dz * dz;
+        if (!(distance_sq > bound))
+          distances_sq_.push_back(distance_sq);
       }
     const auto middle = distances_sq_.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(distances_sq_.begin(), middle, distances_sq_.end());

@@ -7,9 +7,11 @@
 #include "../check_range.h"
 #include "../merged_points.h"
 #include "../neighborhoods.h"
+#include "distinct_points.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace pcl_gpf {
@@ -20,13 +22,15 @@ namespace {
 constexpr double kMostData = 2000.0, kBearableSeconds = 30.0, kBearableSecondsPerPoint = 1e-4;
 /** Nanoseconds a datum that a kernel looks at, one thread, AVX-512, balls so large that nearly all data are in them. */
 constexpr double kMoments = 0.45, kBilateral = 0.9, kProjection = 0.9, kVariance = 0.5, kRepulsion = 1.1,
-                 kGaussian = 0.6;
+                 kGaussian = 0.6, kGapSearch = 5.0, kSides = 1.5;
 /** Double instead of float. */
 constexpr double kDouble = 4.0;
 /** Directions of normals that a group of points to be merged has, which all leave a mean. */
 constexpr double kDirections = 4.0;
 /** Arrays that the stages hold a point, beside lists. */
 constexpr double kBytesPerPoint = 140.0;
+/** Rounds of upsampling that look as far as the radius; in later ones gaps are narrower. */
+constexpr double kWideRounds = 2.0;
 
 /** How much longer the kernels take than with AVX-512. */
 double
@@ -139,6 +143,22 @@ estimateWork(const GPFParameters& p, const PointIndex& points, std::size_t sampl
     work.data_per_point = std::max(work.data_per_point, wide.data * m / n);
     addPass(iterations * m * wide.data * m / n, precision * (kRepulsion + (p.density_weights ? kGaussian : 0.0)), work);
   }
+  return onThisMachine(std::move(work), p.number_of_threads);
+}
+
+WorkEstimate
+estimateWork(const EdgeAwareUpsamplingParameters& p, const PointIndex& points)
+{
+  std::unique_ptr<PointIndex> distinct; // copies take no part in the search for gaps
+  if (repeatsManyPoints(points.sorted()))
+    distinct = std::make_unique<PointIndex>(distinctPoints(points.sorted()).view(), p.number_of_threads);
+  const PointIndex& searched = distinct ? *distinct : points;
+  const Ball ball = ballOf(searched, p.radius, 0, 1.0);
+  WorkEstimate work = estimateOf("upsampling.radius", points, ball);
+  const auto inserted = static_cast<double>(targetCount(p, points.size()) - points.size());
+  work.bytes += inserted * (kBytesPerPoint + ball.list_bytes);
+  addPass(kWideRounds * static_cast<double>(searched.size()) * ball.data, kGapSearch, work);
+  addPass((p.spacing > 0.0 ? static_cast<double>(points.size()) : inserted) * ball.data, kSides, work);
   return onThisMachine(std::move(work), p.number_of_threads);
 }
 

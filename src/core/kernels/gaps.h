@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace pcl_gpf {
@@ -45,17 +44,6 @@ struct PointRows {
 
   PointRows() = default;
   explicit PointRows(std::size_t size) : x(size), y(size), z(size), nx(size), ny(size), nz(size), number(size) {}
-  void
-  set(std::size_t k, const std::array<float, 3>& position, const std::array<float, 3>& normal, std::uint32_t name)
-  {
-    x[k] = position[0];
-    y[k] = position[1];
-    z[k] = position[2];
-    nx[k] = normal[0];
-    ny[k] = normal[1];
-    nz[k] = normal[2];
-    number[k] = name;
-  }
 };
 
 /** Memory that a thread uses again for each patch. */
@@ -63,9 +51,9 @@ struct GapScratch {
   /** Neighbours beyond this many, the nearest ones, are left out, so that dense places cost no more than others. */
   static constexpr std::size_t kMostNeighbors = 95;
 
-  PointRows candidates; ///< of the patch
-  PointRows neighbors;  ///< of one point, relative to it
-  PointRows bases;      ///< half-way to the neighbours, with their normals
+  PointRows candidates;                  ///< of the patch, relative to its middle
+  AlignedArray<std::uint32_t> neighbors; ///< of one point, places among the candidates
+  PointRows bases;                       ///< half-way to the neighbours, with their normals
   AlignedArray<float> clearance_sq, cosine, priority; ///< of the bases
 
   /** \param[in] candidates of a patch; a vector's width is added */
@@ -76,35 +64,56 @@ struct GapScratch {
     if (clearance_sq.size() >= count + kWidest)
       return;
     const std::size_t size = 2 * (count + kWidest);
-    for (PointRows* points : {&candidates, &neighbors, &bases})
+    for (PointRows* points : {&candidates, &bases})
       *points = PointRows(size);
+    neighbors.assign(size);
     clearance_sq.assign(size);
     cosine.assign(size);
     priority.assign(size);
   }
 };
 
-/** Leaves the nearest of `count` neighbours, in the order that they have. \return how many */
-inline std::size_t
-keepNearest(PointRows& neighbors, std::size_t count)
-{
-  std::vector<float> distance_sq(count);
-  for (std::size_t j = 0; j < count; ++j)
-    distance_sq[j] = neighbors.x[j] * neighbors.x[j] + neighbors.y[j] * neighbors.y[j] + neighbors.z[j] * neighbors.z[j];
-  std::vector<std::uint32_t> nearest(count);
-  std::iota(nearest.begin(), nearest.end(), 0u);
-  const auto end = nearest.begin() + static_cast<std::ptrdiff_t>(GapScratch::kMostNeighbors);
-  std::nth_element(nearest.begin(), end, nearest.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return distance_sq[a] < distance_sq[b] || (distance_sq[a] == distance_sq[b] && a < b);
-  });
-  std::sort(nearest.begin(), end);
-  for (std::size_t k = 0; k < GapScratch::kMostNeighbors; ++k) {
-    const std::uint32_t j = nearest[k];
-    for (AlignedArray<float>* values : {&neighbors.x, &neighbors.y, &neighbors.z, &neighbors.nx, &neighbors.ny, &neighbors.nz})
-      (*values)[k] = (*values)[j];
-    neighbors.number[k] = neighbors.number[j];
+/** Bases with their priorities, and what names the gaps. */
+struct RivalRows {
+  AlignedArray<float> x, y, z, priority;
+  AlignedArray<std::uint32_t> number;
+
+  RivalRows() = default;
+  explicit RivalRows(std::size_t size) : x(size), y(size), z(size), priority(size), number(size) {}
+};
+
+/** Memory that a task uses again for each patch. */
+struct RivalScratch {
+  RivalRows wide;   ///< near the patch
+  RivalRows narrow; ///< near a few gaps of it
+
+  /** \param[in] count rivals of a patch; a vector's width is added */
+  void
+  reserve(std::size_t count)
+  {
+    constexpr std::size_t kWidest = 32;
+    if (wide.number.size() >= count + kWidest)
+      return;
+    for (RivalRows* rows : {&wide, &narrow})
+      *rows = RivalRows(2 * (count + kWidest));
   }
-  return GapScratch::kMostNeighbors;
+};
+
+/** The squared radius of an open ball that holds at most kMostNeighbors of the neighbours of a point: as many, unless distances are
+ * equal. */
+inline float
+radiusSqOfNearest(const GapScratch& scratch, std::size_t neighbors, const std::array<float, 3>& point)
+{
+  std::vector<float> distance_sq(neighbors);
+  const PointRows& p = scratch.candidates;
+  for (std::size_t k = 0; k < neighbors; ++k) {
+    const std::size_t j = scratch.neighbors[k];
+    const float x = p.x[j] - point[0], y = p.y[j] - point[1], z = p.z[j] - point[2];
+    distance_sq[k] = x * x + y * y + z * z;
+  }
+  const auto first_left = distance_sq.begin() + static_cast<std::ptrdiff_t>(GapScratch::kMostNeighbors);
+  std::nth_element(distance_sq.begin(), first_left, distance_sq.end());
+  return *first_left;
 }
 
 } // namespace kernels

@@ -148,18 +148,13 @@ fieldSums(const Candidates& candidates, const FieldSums& a, std::size_t begin, s
     streamPairs<PlainFieldSum, float>(candidates, a, begin, end);
 }
 
-template <class D>
-using SignInvariantSideSum = SideSum<D, true>;
-template <class D>
-using OrientedSideSum = SideSum<D, false>;
-
 static void
 sideSums(const Candidates& candidates, const SideSums& a, std::size_t begin, std::size_t end)
 {
   if (a.sign_invariant)
-    streamPairs<SignInvariantSideSum, float>(candidates, a, begin, end);
+    SideLoop<true>(candidates, a).run(begin, end);
   else
-    streamPairs<OrientedSideSum, float>(candidates, a, begin, end);
+    SideLoop<false>(candidates, a).run(begin, end);
 }
 
 template <class D>

@@ -74,19 +74,18 @@ struct FieldSums {
 };
 
 /** Sums of the planes of the data in reach, seen along two directions m of each query: weight = exp(-falloff r^2 / radius^2 - ((1 - m.n)
- * angle_falloff)^2), offset = sum of weight * (query - datum).n, normal = sum of weight * n. */
+ * angle_falloff)^2), offset = sum of weight * (query - datum).n, normal = sum of weight * n. Candidates are runs. */
 struct SideSums {
   Vectors<float> queries, directions[2], data, data_normals;
-  Radius<float> radius;
+  float radius_sq = 0;
   float falloff = 0;
   float angle_falloff = 0;    ///< 1 / (1 - cos sigma_n)
   bool sign_invariant = true; ///< normals are turned towards the direction
-  const float* data_numbers = nullptr; ///< 32 bits that name a datum, whatever they are
-  std::size_t first_output = 0;        ///< query whose results go to the first place of the arrays below
+  std::size_t first_output = 0; ///< query whose results go to the first place of the arrays below
   float* weight[2] = {};
   float* offset[2] = {};
   MutableVectors<float> normal[2];
-  float* nearest[2] = {};     ///< the number of the datum of largest weight; 0 when there is none
+  std::uint32_t* nearest[2] = {}; ///< the first datum of largest weight; 0 when there is none
 };
 
 /** The gaps of greatest priority beside each of the points [first, last), which lie near each other. Runs hold their candidates. */
@@ -115,6 +114,7 @@ struct BetterGaps {
   const float* priority = nullptr;
   const Run* runs = nullptr;
   std::size_t run_count = 0, first = 0, last = 0;
+  RivalScratch* scratch = nullptr;  ///< with room for all of the runs
   std::uint32_t* better = nullptr;  ///< with room for all pairs and a vector more
   std::uint32_t* row_end = nullptr; ///< of each gap, counted from `better`
 };

@@ -29,38 +29,38 @@ public:
   {
     const std::size_t candidates = rows_.collectCandidates();
     for (std::size_t k = a_.first; k < a_.last; ++k) {
-      std::size_t count = rows_.collectNeighbors(k, candidates);
-      if (count > GapScratch::kMostNeighbors)
-        count = keepNearest(a_.scratch->neighbors, count);
-      const std::size_t bases = rows_.collectBases(k, count);
-      measure(k, count, bases);
-      choose(k, bases);
+      GapRows::Counts counts = rows_.collectNeighbors(k, a_.radius_sq[k - a_.first], candidates);
+      if (counts.neighbors > GapScratch::kMostNeighbors)
+        counts = rows_.collectNeighbors(k, radiusSqOfNearest(*a_.scratch, counts.neighbors, rows_.position(k)), candidates);
+      measure(k, counts);
+      choose(k, counts.bases);
     }
   }
 
 private:
   /** The clearance of each base, 0 for those that are none, and the cosine between the normals of the pair. */
   HWY_INLINE void
-  measure(std::size_t k, std::size_t count, std::size_t bases)
+  measure(std::size_t k, GapRows::Counts counts)
   {
     const D d;
-    const PointRows& s = a_.scratch->neighbors;
-    const PointRows& b = a_.scratch->bases;
-    const float own[3] = {a_.normals.x[k], a_.normals.y[k], a_.normals.z[k]};
-    const Lanes3<D> normal = {hn::Set(d, own[0]), hn::Set(d, own[1]), hn::Set(d, own[2])};
-    for (std::size_t t = 0; t < bases; t += lanes_) {
-      const Lanes3<D> base = GapRows::positions(b, t);
-      const auto to_base_sq = dot<D>(base, base);
-      const auto above = dot<D>(base, normal);
+    const Vectors<float> bases = GapRows::positionsOf(a_.scratch->bases), others = GapRows::normalsOf(a_.scratch->bases);
+    const Vectors<float> s = GapRows::positionsOf(a_.scratch->candidates), n = GapRows::normalsOf(a_.scratch->candidates);
+    const std::uint32_t* const neighbors = a_.scratch->neighbors.data();
+    const std::array<float, 3> v = rows_.position(k);
+    const Lanes3<D> point = {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
+    const Lanes3<D> normal = {hn::Set(d, a_.normals.x[k]), hn::Set(d, a_.normals.y[k]), hn::Set(d, a_.normals.z[k])};
+    for (std::size_t t = 0; t < counts.bases; t += lanes_) {
+      const Lanes3<D> base = loadQueries(d, bases, t), to_base = minus<D>(base, point);
+      const auto to_base_sq = dot<D>(to_base, to_base);
+      const auto above = dot<D>(to_base, normal);
       auto least_sq = hn::Sub(to_base_sq, hn::Mul(above, above)); // from k's own line
-      for (std::size_t j = 0; j < count; ++j) {
+      for (std::size_t i = 0; i < counts.neighbors; ++i) {
+        const std::size_t j = neighbors[i];
         const Lanes3<D> e = {hn::Sub(base.x, hn::Set(d, s.x[j])), hn::Sub(base.y, hn::Set(d, s.y[j])), hn::Sub(base.z, hn::Set(d, s.z[j]))};
-        const Lanes3<D> n = {hn::Set(d, s.nx[j]), hn::Set(d, s.ny[j]), hn::Set(d, s.nz[j])};
-        const auto along = dot<D>(e, n);
+        const auto along = dot<D>(e, {hn::Set(d, n.x[j]), hn::Set(d, n.y[j]), hn::Set(d, n.z[j])});
         least_sq = hn::Min(least_sq, hn::Sub(dot<D>(e, e), hn::Mul(along, along)));
       }
-      const Lanes3<D> other = GapRows::normals(b, t);
-      const auto cosine = dot<D>(normal, other), aligned = hn::Abs(cosine);
+      const auto cosine = dot<D>(normal, loadQueries(d, others, t)), aligned = hn::Abs(cosine);
       auto none = hn::And(hn::Gt(aligned, hn::Set(d, a_.parallel)),
                           hn::Gt(hn::Mul(above, above), hn::Mul(hn::Set(d, a_.steep_sq), to_base_sq)));
       if (!a_.sign_invariant)
@@ -85,16 +85,16 @@ private:
         hn::StoreU(hn::LoadU(d, s.clearance_sq.data() + t), d, priority + t);
     Gap* gaps = a_.gaps + kGapsOfPoint * (k - a_.first);
     const std::size_t first = firstOfMost(bases);
-    gaps[0] = gap(k, first, bases);
+    gaps[0] = gap(first, bases);
     if (first < bases) {
       const Lanes3<D> best = {hn::Set(d, s.bases.x[first]), hn::Set(d, s.bases.y[first]), hn::Set(d, s.bases.z[first])};
       for (std::size_t t = 0; t < bases; t += lanes_) {
-        const Lanes3<D> offset = minus<D>(GapRows::positions(s.bases, t), best);
+        const Lanes3<D> offset = minus<D>(loadQueries(d, GapRows::positionsOf(s.bases), t), best);
         const auto apart = hn::Ge(dot<D>(offset, offset), hn::LoadU(d, s.clearance_sq.data() + t));
         hn::StoreU(hn::IfThenElseZero(apart, hn::LoadU(d, priority + t)), d, priority + t);
       }
     }
-    gaps[1] = gap(k, firstOfMost(bases), bases);
+    gaps[1] = gap(firstOfMost(bases), bases);
   }
 
   /** The first of the bases that have the greatest priority, above 0; `bases` when there is none. */
@@ -116,12 +116,13 @@ private:
   }
 
   HWY_INLINE Gap
-  gap(std::size_t k, std::size_t t, std::size_t bases) const
+  gap(std::size_t t, std::size_t bases) const
   {
     const GapScratch& s = *a_.scratch;
     if (t == bases)
       return Gap();
-    return {{a_.points.x[k] + s.bases.x[t], a_.points.y[k] + s.bases.y[t], a_.points.z[k] + s.bases.z[t]},
+    const float* const middle = rows_.middle();
+    return {{middle[0] + s.bases.x[t], middle[1] + s.bases.y[t], middle[2] + s.bases.z[t]},
             s.clearance_sq[t], s.priority[t], s.bases.number[t]};
   }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace pcl_gpf {
 
@@ -39,14 +38,16 @@ struct BilateralProjection::Side {
 
 /** What the kernel gives for the queries of one task. */
 struct BilateralProjection::Sums {
-  AlignedArray<float> weight[2], offset[2], nearest[2];
+  AlignedArray<float> weight[2], offset[2];
+  AlignedArray<std::uint32_t> nearest[2];
   SortedVectors<float> normal[2];
 
   explicit Sums(std::size_t count)
   {
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-      for (AlignedArray<float>* values : {&weight[k], &offset[k], &nearest[k]})
-        values->assign(count);
+      weight[k].assign(count);
+      offset[k].assign(count);
+      nearest[k].assign(count);
       normal[k] = SortedVectors<float>(count);
     }
   }
@@ -55,15 +56,11 @@ struct BilateralProjection::Sums {
 BilateralProjection::BilateralProjection(const PointIndex& points, NormalsView normals, double radius, double angle, bool sign_invariant)
 : points_(points)
 , normals_(gather<float>(normals, {}, {}, 0.0f))
-, numbers_(points.size() + kQueryBlock)
 , radius_(radius)
 , angle_falloff_(1.0 / (1.0 - std::cos(angle)))
 , edge_cosine_(std::cos(angle))
 , sign_invariant_(sign_invariant)
-{
-  for (std::uint32_t k = 0; k < points.size(); ++k)
-    std::memcpy(&numbers_[k], &k, sizeof k);
-}
+{}
 
 BilateralProjection::Side
 BilateralProjection::side(const Sums& sums, std::size_t which, std::size_t place) const
@@ -78,7 +75,7 @@ BilateralProjection::side(const Sums& sums, std::size_t which, std::size_t place
   side.offset = sums.offset[which][place] / side.weight;
   for (double& n : side.normal)
     n /= length;
-  std::memcpy(&side.nearest, &sums.nearest[which][place], sizeof side.nearest);
+  side.nearest = sums.nearest[which][place];
   return side;
 }
 
@@ -163,11 +160,10 @@ BilateralProjection::project(const ProjectionQueries& queries, std::size_t threa
     a.queries = queries.positions.vectors();
     a.data = {data.x, data.y, data.z};
     a.data_normals = normals_.vectors();
-    a.radius.radius_sq = static_cast<float>(radius_ * radius_);
+    a.radius_sq = static_cast<float>(radius_ * radius_);
     a.falloff = static_cast<float>(kDistanceFalloff);
     a.angle_falloff = static_cast<float>(angle_falloff_);
     a.sign_invariant = sign_invariant_;
-    a.data_numbers = numbers_.data();
     a.first_output = first;
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
       a.directions[k] = queries.directions[k].vectors();

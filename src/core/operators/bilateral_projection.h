@@ -59,7 +59,6 @@ private:
 
   const PointIndex& points_;
   SortedVectors<float> normals_;
-  AlignedArray<float> numbers_; ///< bits of the places 0, 1, 2 ...
   double radius_;
   double angle_falloff_; ///< 1 / (1 - cos sigma_n)
   double edge_cosine_;   ///< cos sigma_n: sides that turn further meet at an edge

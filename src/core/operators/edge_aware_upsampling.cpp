@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/analysis/surface_extent.h>
+#include <pcl_gpf/core/analysis/work_estimate.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/operators/edge_aware_upsampling.h>
 #include <pcl_gpf/core/parallel.h>
@@ -73,7 +74,11 @@ EdgeAwareUpsamplingResult
 upsampleSorted(const EdgeAwareUpsamplingParameters& parameters, const PointIndex& points, double spacing,
                const SoaBuffer& unit_normals, const ProgressCallback& progress)
 {
-  UpsamplingRounds rounds(makePlan(parameters, points, spacing), points, unit_normals.view());
+  const UpsamplingPlan plan = makePlan(parameters, points, spacing);
+  EdgeAwareUpsamplingParameters known = parameters;
+  known.radius = plan.radius;
+  refuseExcessiveWork(estimateWork(known, points));
+  UpsamplingRounds rounds(plan, points, unit_normals.view());
   double reported = 0.0;
   do {
     reported = std::max(reported, rounds.fractionDone()); // a later estimate may be lower

@@ -19,7 +19,7 @@ constexpr float kSteepSq = 0.5f;
 constexpr float kOpposite = -0.9f;
 /** Points are searched together while their box is at most this many times the reach wide; those of one descent into the tree while
  * theirs is so many. */
-constexpr float kWidestBox = 1.3f, kWidestDescent = 4.0f;
+constexpr float kWidestBox = 1.6f, kWidestDescent = 5.0f;
 /** Neighbours are sought within at least this many clearances of the gap known before, so that points across a wide one are found, and
  * within at most so many, so that a dense edge costs no more than other places. */
 constexpr float kLeastClearances = 3.0f, kMostClearances = 5.0f;

@@ -16,15 +16,23 @@
 
 namespace pcl_gpf {
 
+/** Points of `points`, ascending, without copies: of those that lie where the one before them does, on the curve, those of one direction
+ * leave one. So a pile of coincident points is a few points, and costs what they do.
+ * \param[in] apart distances below are rounding \param[in] sign_invariant opposite normals are one direction */
+std::vector<std::uint32_t>
+placesWithoutCopies(PointsView points, NormalsView normals, float apart, bool sign_invariant);
+
 /** Points in an order in which neighbours follow each other, to which points are added beside others: so nothing is sorted again.
  *
  * A point keeps its number, those of the input are their places in the PointIndex; its place in the order changes. */
 class GrowingCloud {
 public:
-  /** \param[in] normals of unit length, in sorted order */
-  GrowingCloud(const PointIndex& points, NormalsView normals, std::size_t threads);
+  /** \param[in] normals of unit length, in sorted order \param[in] places of the points that take part, ascending */
+  GrowingCloud(const PointIndex& points, NormalsView normals, const std::vector<std::uint32_t>& places, std::size_t threads);
 
   std::size_t size() const { return size_; }
+  /** Numbers that were given: to all of the input, and to those added. */
+  std::uint32_t numberCount() const { return static_cast<std::uint32_t>(places_.size()); }
   kernels::Vectors<float> positions() const { return {rows_.x.data(), rows_.y.data(), rows_.z.data()}; }
   kernels::Vectors<float> normals() const { return {rows_.nx.data(), rows_.ny.data(), rows_.nz.data()}; }
   const std::uint32_t* numbers() const { return rows_.number.data(); }

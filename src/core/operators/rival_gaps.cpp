@@ -16,10 +16,10 @@ namespace pcl_gpf {
 
 namespace {
 
-constexpr std::size_t kGapsPerTask = 256;
+constexpr std::size_t kGapsPerTask = 1024;
 /** Gaps are looked at together while the box of their bases is at most this many of their clearances wide; those of one descent into
  * the tree while theirs is so many. */
-constexpr float kWidestBox = 2.0f, kWidestDescent = 12.0f;
+constexpr float kWidestBox = 4.0f, kWidestDescent = 24.0f;
 
 /** The rivals' bases with the tree over them, in the order given. */
 struct Rivals {
@@ -58,37 +58,46 @@ struct BetterLists {
       const auto widest = [clearances](std::size_t first, std::size_t last) {
         return std::sqrt(*std::max_element(clearances + first, clearances + last));
       };
-      std::vector<std::uint32_t>& better = of_task[begin / kGapsPerTask];
+      Rows rows;
       std::vector<std::uint32_t> groups;
-      std::vector<Run> candidates;
       const float unit = widest(begin, end);
       forPatches(begin, end, kWidestDescent * unit, position, [&](std::size_t wide_first, std::size_t wide_last, const FloatBox& wide_box) {
         rivals.tree.collectGroups(wide_box, unit, groups);
         forPatches(wide_first, wide_last, kWidestBox * unit, position, [&](std::size_t first, std::size_t last, const FloatBox& box) {
-          candidates.clear();
-          rivals.tree.collectRuns(groups, box, widest(first, last), candidates);
-          appendRows(rivals, candidates, first, last, better);
+          rows.candidates.clear();
+          rivals.tree.collectRuns(groups, box, widest(first, last), rows.candidates);
+          append(rivals, first, last, rows);
         });
       });
+      of_task[begin / kGapsPerTask].assign(rows.better.data(), rows.better.data() + rows.size);
     });
   }
 
 private:
+  /** Of one task, with the memory that its patches share. */
+  struct Rows {
+    std::vector<Run> candidates;
+    kernels::RivalScratch scratch;
+    std::vector<std::uint32_t> better; ///< `size` members, and room behind them
+    std::size_t size = 0;
+  };
+
   void
-  appendRows(const Rivals& rivals, const std::vector<Run>& candidates, std::size_t first, std::size_t last,
-             std::vector<std::uint32_t>& better)
+  append(const Rivals& rivals, std::size_t first, std::size_t last, Rows& rows)
   {
-    std::size_t pairs = 0;
-    for (const Run run : candidates)
-      pairs += (run.end - run.begin) * (last - first);
-    const std::size_t before = better.size();
-    better.resize(before + pairs + kQueryBlock);
+    std::size_t count = 0;
+    for (const Run run : rows.candidates)
+      count += run.end - run.begin;
+    rows.scratch.reserve(count);
+    const std::size_t most = rows.size + count * (last - first) + kQueryBlock;
+    if (rows.better.size() < most)
+      rows.better.resize(2 * most);
     kernels::active().better_gaps({{rivals.bases.x.data(), rivals.bases.y.data(), rivals.bases.z.data()}, rivals.clearance_sq.data(),
-                                   rivals.priority.data(), candidates.data(), candidates.size(), first, last, better.data() + before,
-                                   row_end.data() + first});
+                                   rivals.priority.data(), rows.candidates.data(), rows.candidates.size(), first, last, &rows.scratch,
+                                   rows.better.data() + rows.size, row_end.data() + first});
     for (std::size_t k = first; k < last; ++k)
-      row_end[k] += static_cast<std::uint32_t>(before);
-    better.resize(row_end[last - 1]);
+      row_end[k] += static_cast<std::uint32_t>(rows.size);
+    rows.size = row_end[last - 1];
   }
 };
 

@@ -22,6 +22,8 @@ constexpr float kReachInClearances = 3.6f;
 /** Share of the points whose gaps, those of least priority, take no part in a round: so the widest are filled first. A round fills about
  * 0.4 gaps a point, so it is the last when not more than kLastRound a point are to be filled; of that one the best are taken. */
 constexpr double kShareLeft = 0.15, kShareLeftOfLast = 0.1, kLastRound = 0.5;
+/** Points by which the priorities of all are judged, at least, when there are more. */
+constexpr std::size_t kPriorityProbes = 8192;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 template <class Arrays>
@@ -40,7 +42,7 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex&
 , input_size_(points.size())
 , projection_(points, unit_normals, plan.radius, plan.angle, plan.sign_invariant)
 , search_(plan.edge_sensitivity, plan.sign_invariant)
-, cloud_(points, unit_normals, plan.threads)
+, cloud_(points, unit_normals, placesWithoutCopies(points.sorted(), unit_normals, kLeastClearance, plan.sign_invariant), plan.threads)
 , reach_(static_cast<float>(plan.radius))
 {
   const float least = std::max(kLeastClearance, static_cast<float>(plan.least_clearance));
@@ -52,13 +54,13 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex&
 void
 UpsamplingRounds::searchGaps()
 {
-  const auto first_new = static_cast<std::uint32_t>(searched_);
+  const std::uint32_t first_new = searched_;
   Gap* gaps = cloud_.gaps().data();
   parallelBlocks(cloud_.size(), kPointsPerTask, plan_.threads, [&](std::size_t begin, std::size_t end) {
     GapSearch::Scratch scratch;
     search_.widest(cloud_, begin, end, first_new, reach_, static_cast<float>(plan_.radius), scratch, gaps + kGapsOfPoint * begin);
   });
-  searched_ = cloud_.size();
+  searched_ = cloud_.numberCount();
   least_filled_ = kUnknown;
 }
 
@@ -82,8 +84,8 @@ float
 UpsamplingRounds::leastPriority() const
 {
   std::vector<float> priorities;
-  priorities.reserve(cloud_.size());
-  for (std::size_t k = 0; k < cloud_.gaps().size(); k += kGapsOfPoint) // the best of each point
+  const std::size_t step = kGapsOfPoint * (1 + cloud_.size() / kPriorityProbes);
+  for (std::size_t k = 0; k < cloud_.gaps().size(); k += step) // the best of each of some points
     if (counts(cloud_.gaps()[k]))
       priorities.push_back(cloud_.gaps()[k].priority);
   if (priorities.empty())

@@ -76,7 +76,7 @@ private:
   std::vector<std::uint32_t> parents_, first_base_, second_base_; ///< of inserted points
   std::vector<std::uint32_t> filled_; ///< gaps that the last round filled
 
-  std::size_t searched_ = 0; ///< points that have been searched
+  std::uint32_t searched_ = 0; ///< numbers of points that have been searched lie below
   float reach_ = 0;          ///< within which partners are sought where gaps are not wide; shrinks with them
   float least_clearance_sq_ = 0;
   double first_priority_ = 0;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 
 namespace pcl_gpf::test {
@@ -425,6 +426,41 @@ TEST(EdgeAwareUpsampling, PilesWithoutGapsEndBeforeTheTarget)
   const EdgeAwareUpsamplingResult result = upsample(toLocalCloud(piles), p);
   EXPECT_FALSE(result.target_reached);
   EXPECT_EQ(result.parents.size(), 0u);
+}
+
+TEST(EdgeAwareUpsampling, CopiesOfOnePointAddNoGaps)
+{
+  Shape pile = plane(1000);
+  const std::size_t copied = 500;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    pile.points.push_back(pile.points[copied]);
+    pile.normals.push_back(pile.normals[copied]);
+  }
+  const EdgeAwareUpsamplingResult result = upsample(toLocalCloud(pile), times(1.5));
+  ASSERT_EQ(result.parents.size(), 1500u);
+  std::set<std::uint32_t> bases;
+  for (const std::vector<std::uint32_t>* ends : {&result.first_base, &result.second_base})
+    for (const std::uint32_t base : *ends)
+      if (base == copied || (base >= 1000 && base < 3000))
+        bases.insert(base);
+  EXPECT_GE(bases.size(), 1u);
+  EXPECT_LE(bases.size(), 8u);
+}
+
+TEST(EdgeAwareUpsampling, RadiusThatExplodesIsRefusedBeforeTheFirstRound)
+{
+  const LocalCloud cloud = toLocalCloud(plane(100000));
+  EdgeAwareUpsamplingParameters p = times(2);
+  p.radius = 1.0;
+  bool begun = false;
+  try {
+    upsample(cloud, p, [&](double) { return begun = true; });
+    ADD_FAILURE() << "not refused";
+  } catch (const ExcessiveWork& error) {
+    for (const char* part : {"upsampling.radius", "billion pairs", " s and ", " MB"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(begun);
 }
 
 TEST(EdgeAwareUpsampling, ParametersAreChecked)

@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/core/export.h>
 #include <pcl_gpf/core/operators/bilateral_normals.h>
+#include <pcl_gpf/core/operators/edge_aware_upsampling.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
 #include <pcl_gpf/core/point_index.h>
@@ -24,7 +25,7 @@ struct WorkEstimate {
   double bytes = 0;          ///< working memory; rough
 };
 
-/** \brief Work of estimatePlaneNormals(). Cost of all three: 64 descents into the tree, below 0.1 s for a million
+/** \brief Work of estimatePlaneNormals(). Cost of all of them: 64 descents into the tree, below 0.1 s for a million
  * points. */
 PCL_GPF_CORE_EXPORT WorkEstimate
 estimateWork(const PlaneNormalsParameters& parameters, const PointIndex& points);
@@ -37,6 +38,10 @@ estimateWork(const BilateralNormalsParameters& parameters, const PointIndex& poi
 PCL_GPF_CORE_EXPORT WorkEstimate
 estimateWork(const GPFParameters& parameters, const PointIndex& points, std::size_t samples,
              bool foreign_search = false);
+
+/** \brief Work of upsampleEdgeAware() with a radius above 0. Of a target spacing, as of twice the points. \throws as targetCount() */
+PCL_GPF_CORE_EXPORT WorkEstimate
+estimateWork(const EdgeAwareUpsamplingParameters& parameters, const PointIndex& points);
 
 /** \brief Whether the radius is taken for a mistake: a sum looks at more than 2,000 data a point and the work takes
  * more than 30 s and 0.1 ms a point, about ten times what the whole chain usually takes (docs/gpf.md). */

@@ -80,7 +80,7 @@ struct EdgeAwareUpsamplingResult {
  * whichever moves it less, beside an edge the one that brings it nearer to the edge; one about as far from both planes moves onto the
  * edge where they meet. In place of the sequential loop of EAR, each round fills all gaps that filling one after another by priority
  * would fill without searching again; results are the same bits for any number of threads.
- * Cost: O(points in all), about 3 us for each new one; memory about 150 bytes each.
+ * Cost: O(points in all), about 2 us for each new one; memory about 150 bytes each.
  *
  * \param[in] points N >= 3 finite positions that do not lie on one line, normalised frame
  * \param[in] normals N vectors of any length > 0
