@@ -34,7 +34,7 @@ rulesOf(FilterScale filter_scale)
   }
 }
 
-constexpr LengthRule kSteeredRadius = {2.45, 3.2, true}, kDirectionRadius = {4.0, 6.0};
+constexpr LengthRule kSteeredRadius = {2.7, 3.5, true}, kDirectionRadius = {4.8, 7.2};
 
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
