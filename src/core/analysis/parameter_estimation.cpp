@@ -34,7 +34,7 @@ rulesOf(FilterScale filter_scale)
   }
 }
 
-constexpr LengthRule kSteeredRadius = {2.7, 3.5, true}, kDirectionRadius = {4.8, 7.2};
+constexpr LengthRule kSteeredRadius = {2.52, 3.3, true}, kDirectionRadius = {5.2, 7.8};
 
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
