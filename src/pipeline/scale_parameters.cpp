@@ -14,6 +14,11 @@ namespace {
  * into slopes; what noise is left, the steered fit takes away. */
 constexpr unsigned kFineRounds = 2, kFineIterations = 4;
 constexpr double kFineAngle = 25.0;
+/** Rounds where noise is so strong that no plane is steered: nothing else takes the rest away. */
+constexpr unsigned kFineRoundsAlone = 3;
+/** Points in a ball from which on means stand for them in the fine bilateral filter. Its layer of noise is as thick as the ball is
+ * wide, so few can be merged, and those lie close together. */
+constexpr unsigned kFineMergeAbove = 60;
 /** Noise in spacings from which planes are steered. Below, a narrow ball holds a surface, and one that follows edges only holds more. */
 constexpr double kSteeredFrom = 0.75;
 /** Noise in box diagonals up to which they are: neighbourhoods reach ten noises, and beyond this as far as the shape bends. */
@@ -47,7 +52,9 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
       parameters.steered.passes = 0;
     if (parameters.steered.passes > 0)
       note(estimateParameters(scale, parameters.steered));
-    parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, kFineRounds);
+    const bool strong = scale.noise > kSteeredUpTo * scale.diagonal;
+    parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, strong ? kFineRoundsAlone : kFineRounds);
+    parameters.bilateral.merge_above = std::min(parameters.bilateral.merge_above, kFineMergeAbove);
     parameters.gpf.maximum_iterations = std::min(parameters.gpf.maximum_iterations, kFineIterations);
     parameters.bilateral.angle = std::min(parameters.bilateral.angle, kFineAngle);
   }

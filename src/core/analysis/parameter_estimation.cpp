@@ -34,7 +34,7 @@ rulesOf(FilterScale filter_scale)
   }
 }
 
-constexpr LengthRule kSteeredRadius = {2.45, 3.2, true}, kDirectionRadius = {4.0, 6.0};
+constexpr LengthRule kSteeredRadius = {2.52, 3.3, true}, kDirectionRadius = {5.2, 7.8};
 
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)

@@ -22,14 +22,14 @@ constexpr std::size_t kCounted = 64;
 
 /** Mean number of points in a ball, over a few of them. */
 double
-meanCount(const PointIndex& points, double radius)
+meanCount(PointsView points, const ClusterTree& tree, double radius)
 {
   std::vector<Run> runs;
   const auto radius_sq = static_cast<float>(radius * radius);
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kCounted);
+  const std::size_t step = std::max<std::size_t>(1, points.size / kCounted);
   std::size_t balls = 0, held = 0;
-  for (std::size_t i = step / 2; i < points.size(); i += step, ++balls)
-    held += countBall(points.tree(), points.sorted(), i, radius_sq, runs);
+  for (std::size_t i = step / 2; i < points.size; i += step, ++balls)
+    held += countBall(tree, points, i, radius_sq, runs);
   return balls > 0 ? static_cast<double>(held) / static_cast<double>(balls) : 0.0;
 }
 
@@ -63,12 +63,12 @@ sumTwo(const kernels::Candidates& candidates, const SortedVectors<float>& probes
 
 } // namespace
 
-NormalTensors::NormalTensors(const PointIndex& index, NormalsView normals, double radius, std::size_t threads)
+NormalTensors::NormalTensors(PointsView points, const ClusterTree& tree, NormalsView normals, const float* weights, double radius,
+                             std::size_t threads)
 {
-  const PointsView points = index.sorted();
   if (points.size == 0)
     return;
-  const double held = meanCount(index, radius);
+  const double held = meanCount(points, tree, radius);
   while (held > static_cast<double>(kMostData * stride_) && stride_ < points.size)
     stride_ *= 2;
   std::vector<std::uint32_t> places;
@@ -84,19 +84,19 @@ NormalTensors::NormalTensors(const PointIndex& index, NormalsView normals, doubl
       sum = AlignedArray<float>(padded);
   for (std::size_t k = 0; k < places.size(); ++k) {
     const float x = normals.x[places[k]], y = normals.y[places[k]], z = normals.z[places[k]];
-    const float values[6] = {x * x, y * y, z * z, y * z, x * z, x * y};
+    const float values[6] = {x * x, y * y, z * z, y * z, x * z, x * y}, weight = weights ? weights[places[k]] : 1.0f;
     for (std::size_t c = 0; c < 6; ++c)
-      products[c][k] = values[c];
+      products[c][k] = weight * values[c];
   }
   const PointsView view = {probes.x.data(), probes.y.data(), probes.z.data(), places.size()};
-  ClusterTree tree;
-  tree.fit(view, threads);
-  const Neighborhoods near = findNeighborhoods(tree, view, radius, threads);
+  ClusterTree probe_tree;
+  probe_tree.fit(view, threads);
+  const Neighborhoods near = findNeighborhoods(probe_tree, view, radius, threads);
   for (std::size_t c = 0; c < 3; ++c)
     sumTwo(candidatesOf(near), probes, radius, products[2 * c], products[2 * c + 1], sums[c], threads);
   tensors_.resize(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const float scale = 1.0f / std::max(1.0f, sums[0][0][k]);
+    const float trace = sums[0][2][k] + sums[0][3][k] + sums[1][2][k], scale = trace > 0.0f ? 1.0f / trace : 0.0f;
     tensors_[k] = {sums[0][2][k] * scale, sums[0][3][k] * scale, sums[1][2][k] * scale,
                    sums[1][3][k] * scale, sums[2][2][k] * scale, sums[2][3][k] * scale, 0.0f};
     tensors_[k].least = leastEigenvalue(tensors_[k]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_gpf/core/point_index.h>
+#include <pcl_gpf/core/cluster_tree.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,11 +15,13 @@ struct NormalTensor {
   float least = 0; ///< smallest eigenvalue, 0 .. 1/3: how much the surface bends in the direction in which it bends least
 };
 
-/** Means of n n^T over balls, for every point of a sorted cloud; neighbours on the curve share one where balls hold many points. */
+/** Means of n n^T over balls, for every point of a sorted cloud, or every mean of some points; neighbours on the curve share one where balls hold many points. */
 class NormalTensors {
 public:
-  /** \param[in] normals unit vectors of free sign, in sorted order */
-  NormalTensors(const PointIndex& points, NormalsView normals, double radius, std::size_t threads);
+  /** \param[in] points in sorted order, followed by padding far away \param[in] tree over them
+   * \param[in] normals unit vectors of free sign \param[in] weights number of points that each stands for; null: 1 */
+  NormalTensors(PointsView points, const ClusterTree& tree, NormalsView normals, const float* weights, double radius,
+                std::size_t threads);
 
   const NormalTensor&
   of(std::size_t sorted_place) const

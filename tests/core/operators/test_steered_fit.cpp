@@ -262,6 +262,33 @@ TEST(SteeredFit, MeansInDenseNeighbourhoodsCostLittle)
   EXPECT_LT(meanDistanceToRoof(merged.guide), 1.25 * meanDistanceToRoof(fitted.guide));
 }
 
+/** All passes but the last move means, and hand their moves down. */
+TEST(SteeredFit, PassesOverMeansReachWhatPassesOverPointsReach)
+{
+  const Scene scene(20000, 1.0, roof);
+  Scene fitted = scene, merged = scene, some = scene;
+  SteeredFitParameters p = parameters(0.05);
+  p.passes = 3;
+  fitSteeredPlanes(p, scene.noisy.view(), all(scene), fitted.guide.view(), fitted.normals.view());
+  p.merge_above = 200;
+  fitSteeredPlanes(p, scene.noisy.view(), all(scene), merged.guide.view(), merged.normals.view());
+  EXPECT_LT(meanDistanceToRoof(fitted.guide), 0.3 * meanDistanceToRoof(scene.guide));
+  EXPECT_LT(meanDistanceToRoof(merged.guide), 1.1 * meanDistanceToRoof(fitted.guide));
+
+  std::vector<std::uint32_t> lower; // the others stay to the last bit
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    if (scene.guide.x[i] < 0.5f)
+      lower.push_back(static_cast<std::uint32_t>(i));
+  fitSteeredPlanes(p, scene.noisy.view(), lower, some.guide.view(), some.normals.view());
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const bool differs = some.guide.z[i] != scene.guide.z[i] || some.normals.x[i] != scene.normals.x[i];
+    EXPECT_FALSE(differs && scene.guide.x[i] >= 0.5f) << i;
+    moved += differs;
+  }
+  EXPECT_GT(moved, lower.size() * 99 / 100);
+}
+
 TEST(SteeredFit, FewAndCoincidentPointsStay)
 {
   for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {

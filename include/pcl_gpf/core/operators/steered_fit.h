@@ -17,7 +17,7 @@ struct SteeredFitParameters {
   double longest_share = 4.0;    ///< half length of a neighbourhood where nothing bends, as a multiple of `radius`, >= 1
   double bending_weight = 9.0;   ///< how fast neighbourhoods shrink across a bend, >= 0; 0 = balls
   unsigned passes = 3;           ///< each from the result of the one before; 0 = no fit
-  unsigned merge_above = 200;    ///< means stand for the points of denser neighbourhoods, 0 = never
+  unsigned merge_above = 200;    ///< means stand for the points of denser neighbourhoods, which all passes but the last move; 0 = never
 
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
@@ -35,6 +35,7 @@ validate(const SteeredFitParameters& parameters);
  * is fitted to the guide in it, weights (1 - d^T A d)^2, and the point moves along that plane's normal to the mean height of the *noisy*
  * points, whose noise is therefore averaged once, over many points, without the clipping that a ball about a noisy point has. Heights are
  * taken half along the point's normal, half as the neighbours' planes say, so that curved surfaces stay where they are.
+ * All passes but the last move the data, which are means where neighbourhoods hold many points, and with each mean its points.
  * (Kernels steered by a structure tensor: Takeda, Farsiu, Milanfar 2007; normal tensors: Medioni et al.)
  *
  * \param[in] noisy N positions that the guide was filtered from
@@ -43,7 +44,8 @@ validate(const SteeredFitParameters& parameters);
  * \param[in] progress called before each pass and at the end; return false to cancel
  * \throws InvalidParameter (also a radius of 0, unless `passes` is 0, and places beyond the points), ExcessiveWork, Cancelled; passes that
  * were done by then stay
- * Cost: three passes take a quarter of the time of the whole chain where every point is refined (100,000 points, noise of 4 spacings). Thread safety: free function without shared state.
+ * Cost: three passes take about a fifth of the time of the whole chain where every point is refined (100,000 points, noise of 4 spacings).
+ * Thread safety: free function without shared state.
  */
 PCL_GPF_CORE_EXPORT void
 fitSteeredPlanes(const SteeredFitParameters& parameters, PointsView noisy, const std::vector<std::uint32_t>& places,
