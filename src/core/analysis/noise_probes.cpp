@@ -142,7 +142,7 @@ PatchHeights
 NoiseProbes::heightsAt(const Center& center, double guess, Scratch& scratch) const
 {
   constexpr double kLateral = 2.2;
-  constexpr std::size_t kWanted = 500, kMost = 1500;
+  constexpr std::size_t kWanted = 800, kMost = 1500;
   const double radius = guess * std::hypot(kLateral, kPooledHeight);
   std::vector<Offset>& points = scratch.points;
   std::size_t level = thinned_.size();

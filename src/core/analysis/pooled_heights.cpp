@@ -17,7 +17,7 @@ constexpr std::size_t kTerms = 48;
 /** Directions of planes, as ratios of the extents of even noise along them: from along an axis to along the diagonal. */
 constexpr double kDirections[][3] = {{1, 0, 0},     {1, .1, .05}, {1, .2, .1},  {1, .3, .1},   {1, .3, .3}, {1, .5, 0}, {1, .5, .3},
                                      {1, .5, .5},   {1, .75, 0},  {1, .75, .4}, {1, .75, .75}, {1, 1, 0},   {1, 1, .5}, {1, 1, 1}};
-constexpr double kLeastShare = 0.25, kMostShare = 0.86, kShareStep = 0.05;
+constexpr double kLeastShare = 0.05, kMostShare = 0.86, kShareStep = 0.05;
 constexpr double kLeastScale = 0.9, kMostScale = 1.13, kScaleStep = 0.02;
 
 using Series = std::array<double, kTerms>;

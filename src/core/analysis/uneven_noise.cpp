@@ -11,7 +11,7 @@ namespace pcl_gpf {
 namespace {
 
 constexpr std::size_t kAround = 5;
-constexpr double kHighestLevel = 1.6; // medians; a patch that took in another part shows more
+constexpr double kHighestLevel = 1.4; // medians; a patch that took in another part shows more
 
 constexpr std::size_t kStep = 2;
 constexpr double kMostTrimmed = 0.06;
