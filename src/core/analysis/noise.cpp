@@ -2,6 +2,8 @@
 #include <pcl_gpf/core/analysis/noise.h>
 
 #include "noise_probes.h"
+#include "two_sheets.h"
+#include "uneven_noise.h"
 
 #include <pcl_gpf/core/parallel.h>
 
@@ -106,8 +108,11 @@ measureNoise(const NoiseProbes& probes, double spacing)
     noise = probes.measure(centers, noise, 1).noise; // lays all centres onto the surface
   if (!(noise > 0.0))
     return 0.0;
-  const NoiseReading reading = probes.measure(centers, noise, 1);
-  return reading.noise * shapeFactor(reading);
+  const std::vector<NoiseReading> patches = probes.readEach(centers, noise, 1);
+  const NoiseReading reading = quietTenth(patches);
+  noise = reading.noise * shapeFactor(reading);
+  const double of_one_sheet = noiseOfOneSheet(probes, centers, noise, reading.kurtosis);
+  return of_one_sheet < noise ? of_one_sheet : noiseOverAll(probes, centers, noise, patches);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "noise_probes.h"
+#include "pooled_heights.h"
 
 #include <pcl_gpf/core/parallel.h>
 
@@ -33,7 +34,34 @@ lengthSq(const Offset& p)
   return p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
 }
 
+/** Thins points to every `stride`th. */
+void
+keepEvery(std::size_t stride, std::vector<Offset>& points)
+{
+  if (stride <= 1)
+    return;
+  for (std::size_t i = 0; i * stride < points.size(); ++i)
+    points[i] = points[i * stride];
+  points.resize((points.size() + stride - 1) / stride);
+}
+
 } // namespace
+
+NoiseReading
+quietTenth(std::vector<NoiseReading> patches)
+{
+  std::sort(patches.begin(), patches.end(), [](const NoiseReading& a, const NoiseReading& b) {
+    return a.noise < b.noise || (a.noise == b.noise && a.kurtosis < b.kurtosis);
+  });
+  const auto place = static_cast<std::size_t>(static_cast<double>(patches.size()) * kQuantile);
+  NoiseReading reading{std::isfinite(patches[place].noise) ? patches[place].noise : 0.0, 0.0, 0.0, 0.0, 0.0};
+  const std::size_t lower_half = std::max<std::size_t>(1, patches.size() / 2);
+  for (std::size_t k = 0; k < lower_half; ++k) {
+    reading.kurtosis += patches[k].kurtosis / static_cast<double>(lower_half);
+    reading.trimmed += patches[k].trimmed / static_cast<double>(lower_half);
+  }
+  return reading;
+}
 
 /** Storage of one task. */
 struct NoiseProbes::Scratch {
@@ -56,8 +84,8 @@ NoiseProbes::evenCenters() const
   return centers;
 }
 
-NoiseReading
-NoiseProbes::measure(Centers& centers, double guess, std::size_t step) const
+std::vector<NoiseReading>
+NoiseProbes::readEach(Centers& centers, double guess, std::size_t step) const
 {
   std::vector<NoiseReading> patches((centers.size() + step - 1) / step);
   parallelBlocks(patches.size(), 8, threads_, [&](std::size_t begin, std::size_t end) {
@@ -65,17 +93,67 @@ NoiseProbes::measure(Centers& centers, double guess, std::size_t step) const
     for (std::size_t k = begin; k < end; ++k)
       patches[k] = measureAt(centers[k * step], guess, scratch);
   });
-  std::sort(patches.begin(), patches.end(), [](const NoiseReading& a, const NoiseReading& b) {
-    return a.noise < b.noise || (a.noise == b.noise && a.kurtosis < b.kurtosis);
+  return patches;
+}
+
+std::vector<NoiseLevel>
+NoiseProbes::settleEach(const Centers& centers, double guess, std::size_t step) const
+{
+  std::vector<NoiseLevel> levels((centers.size() + step - 1) / step);
+  parallelBlocks(levels.size(), 8, threads_, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
+    for (std::size_t k = begin; k < end; ++k)
+      levels[k] = settleAt(centers[k * step], guess, scratch);
   });
-  const auto place = static_cast<std::size_t>(static_cast<double>(patches.size()) * kQuantile);
-  NoiseReading reading{std::isfinite(patches[place].noise) ? patches[place].noise : 0.0, 0.0, 0.0};
-  const std::size_t lower_half = std::max<std::size_t>(1, patches.size() / 2);
-  for (std::size_t k = 0; k < lower_half; ++k) {
-    reading.kurtosis += patches[k].kurtosis / static_cast<double>(lower_half);
-    reading.trimmed += patches[k].trimmed / static_cast<double>(lower_half);
+  return levels;
+}
+
+NoiseLevel
+NoiseProbes::settleAt(Center center, double guess, Scratch& scratch) const
+{
+  constexpr int kRounds = 9;
+  constexpr double kSettled = 0.05, kMostTrimmed = 0.06, kHighest = 3.5, kLowest = 0.3; // guesses
+  double noise = guess;
+  for (int round = 0; round < kRounds && noise < kHighest * guess && noise > kLowest * guess; ++round) {
+    const NoiseReading reading = measureAt(center, noise, scratch);
+    const double growth = reading.level / noise;
+    if (!std::isfinite(growth) || !(growth > 0.0))
+      break;
+    if (std::abs(growth - 1.0) < kSettled)
+      return {center, reading.trimmed < kMostTrimmed ? reading.level : 0.0, reading.reach};
+    noise *= growth * std::sqrt(growth);
   }
-  return reading;
+  return {center, 0.0, 0.0};
+}
+
+std::vector<PatchHeights>
+NoiseProbes::heightsOfEach(const Centers& centers, double guess, std::size_t step) const
+{
+  std::vector<PatchHeights> found((centers.size() + step - 1) / step);
+  parallelBlocks(found.size(), 8, threads_, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
+    for (std::size_t k = begin; k < end; ++k)
+      found[k] = heightsAt(centers[k * step], guess, scratch);
+  });
+  return found;
+}
+
+PatchHeights
+NoiseProbes::heightsAt(const Center& center, double guess, Scratch& scratch) const
+{
+  constexpr double kLateral = 2.2;
+  constexpr std::size_t kWanted = 800, kMost = 1500;
+  const double radius = guess * std::hypot(kLateral, kPooledHeight);
+  std::vector<Offset>& points = scratch.points;
+  std::size_t level = thinned_.size();
+  do
+    thinned_.collect(--level, center, radius, scratch.runs, points);
+  while (points.size() < kWanted && level > 0);
+  keepEvery((points.size() + kMost - 1) / kMost, points);
+  PatchHeights found;
+  if (points.size() >= kNearest)
+    found.patch = fitSurfacePatch(points, radius, guess, kPooledHeight, &found.heights);
+  return found;
 }
 
 NoiseReading
@@ -85,12 +163,13 @@ NoiseProbes::measureAt(Center& center, double guess, Scratch& scratch) const
   if (!std::isfinite(guess) || !fitBall(center, guess, scratch, patch))
     patch = fitNearest(center, guess, scratch);
   if (patch.count == 0 || !std::isfinite(patch.deviation))
-    return {patch.deviation, 0.0, 0.0};
+    return {patch.deviation, 0.0, 0.0, patch.deviation, patch.reach};
   if (std::isfinite(guess))
     for (std::size_t axis = 0; axis < 3; ++axis)
       center[axis] += static_cast<float>(patch.foot[axis]);
   const double luck = 1.0 - kLuck / std::sqrt(2.0 * static_cast<double>(patch.count - 6));
-  return {patch.deviation / luck / (std::isfinite(guess) ? kTrimmedDeviation : 1.0), patch.kurtosis, patch.trimmed};
+  const double deviation = patch.deviation / (std::isfinite(guess) ? kTrimmedDeviation : 1.0);
+  return {deviation / luck, patch.kurtosis, patch.trimmed, deviation, patch.reach};
 }
 
 bool
@@ -107,10 +186,7 @@ NoiseProbes::fitBall(const Center& center, double guess, Scratch& scratch, Surfa
     radius = widen(center, guess, scratch);
   if (found.size() < kNearest)
     return false;
-  const std::size_t stride = (found.size() + kMostPoints - 1) / kMostPoints;
-  for (std::size_t i = 0; i * stride < found.size(); ++i)
-    found[i] = found[i * stride];
-  found.resize((found.size() + stride - 1) / stride);
+  keepEvery((found.size() + kMostPoints - 1) / kMostPoints, found);
   patch = fitSurfacePatch(found, radius, guess);
   return !patch.narrow;
 }

@@ -18,6 +18,25 @@ struct NoiseReading {
   double noise = std::numeric_limits<double>::infinity(); ///< standard deviation along the normal; infinite: no patch
   double kurtosis = 0.0;                                  ///< of the heights, which are trimmed
   double trimmed = 0.0;                                   ///< share of the points further away than the trim
+  double level = 0.0;                                     ///< of one patch: the deviation as it is, the luck of the lowest not undone
+  double reach = 0.0;                                     ///< of one patch: radius
+};
+
+/** \brief A low quantile of patches, and the mean shape over their lower half; 0 where there are none. */
+NoiseReading
+quietTenth(std::vector<NoiseReading> patches);
+
+/** \brief A patch as wide as its own noise asks for. */
+struct NoiseLevel {
+  std::array<float, 3> center{};
+  double noise = 0.0; ///< 0: none was found
+  double reach = 0.0; ///< radius of the patch
+};
+
+/** \brief A patch and the heights of points about it. */
+struct PatchHeights {
+  SurfacePatch patch;
+  std::vector<float> heights;
 };
 
 /** \brief Patches of a cloud, even over its surface, of any width. */
@@ -38,13 +57,31 @@ public:
   Centers
   evenCenters() const;
 
-  /** \brief Noise in patches as wide as a `guess` at it asks for, infinite: in those of the nearest points; a low quantile over patches,
-   * 0 where there are none. Their shape is a mean over the lower half. Every `step`th of the centres moves onto its surface. */
+  /** \brief What patches show that are as wide as a `guess` at the noise asks for, infinite: those of the nearest points. Every `step`th
+   * of the centres is read, in their order, and moves onto its surface. */
+  std::vector<NoiseReading>
+  readEach(Centers& centers, double guess, std::size_t step) const;
   NoiseReading
-  measure(Centers& centers, double guess, std::size_t step) const;
+  measure(Centers& centers, double guess, std::size_t step) const
+  {
+    return quietTenth(readEach(centers, guess, step));
+  }
+
+  /** \brief Levels of patches that are each as wide as their own noise asks for; of every `step`th centre, from `guess` on. */
+  std::vector<NoiseLevel>
+  settleEach(const Centers& centers, double guess, std::size_t step) const;
+
+  /** \brief Wider patches of every `step`th centre with the heights of all points about them, in units of the guess and up to
+   * kPooledHeight. */
+  std::vector<PatchHeights>
+  heightsOfEach(const Centers& centers, double guess, std::size_t step) const;
 
 private:
   struct Scratch;
+  NoiseLevel
+  settleAt(Center center, double guess, Scratch& scratch) const;
+  PatchHeights
+  heightsAt(const Center& center, double guess, Scratch& scratch) const;
   NoiseReading
   measureAt(Center& center, double guess, Scratch& scratch) const;
   /** \return false if the ball holds too few points or those of a line */

@@ -46,17 +46,23 @@ struct PrincipalFrame {
   bool narrow;
 };
 
-/** \return axes of zeros when all points coincide */
+/** Of the points within `radius`. \return axes of zeros when all of them coincide */
 PrincipalFrame
-principalFrame(const std::vector<Offset>& points)
+principalFrame(const std::vector<Offset>& points, double radius)
 {
   PrincipalFrame frame{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), true};
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  double count = 0.0;
+  const auto inside = [&](const Offset& p) { return vector(p).squaredNorm() <= radius * radius; };
   for (const Offset& p : points)
-    frame.mean += vector(p);
-  frame.mean /= static_cast<double>(points.size());
+    if (inside(p)) {
+      frame.mean += vector(p);
+      ++count;
+    }
+  frame.mean /= std::max(count, 1.0);
   for (const Offset& p : points)
-    scatter.noalias() += (vector(p) - frame.mean) * (vector(p) - frame.mean).transpose();
+    if (inside(p))
+      scatter.noalias() += (vector(p) - frame.mean) * (vector(p) - frame.mean).transpose();
   if (!(scatter.trace() > 0.0))
     return frame;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -113,16 +119,20 @@ fitHeights(const std::vector<Eigen::Vector3d>& points, double window, Terms& sur
 } // namespace
 
 SurfacePatch
-fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise)
+fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise, double height, std::vector<float>* heights)
 {
   SurfacePatch patch;
-  const PrincipalFrame frame = principalFrame(points);
+  const double low_sq = std::isfinite(noise) ? (height * height - kPatchTrim * kPatchTrim) * noise * noise : 0.0;
+  const double core = low_sq > 0.0 ? std::sqrt(std::max(radius * radius - low_sq, 0.0)) : std::numeric_limits<double>::infinity();
+  const PrincipalFrame frame = principalFrame(points, core); // of a ball that is no higher than it needs to be
   if (frame.axes.isZero(0.0) || !(radius > 0.0))
     return patch;
   patch.narrow = frame.narrow;
   patch.deviation = std::numeric_limits<double>::infinity();
   const double trim = kPatchTrim * noise / radius;
-  const double lateral_sq = std::isfinite(noise) ? 1.0 - trim * trim : std::numeric_limits<double>::infinity();
+  const double cut = height * noise / radius;
+  const double lateral_sq = std::isfinite(noise) ? 1.0 - cut * cut : std::numeric_limits<double>::infinity();
+  patch.reach = std::isfinite(noise) ? radius * std::sqrt(std::max(lateral_sq, 0.0)) : radius;
   std::vector<Eigen::Vector3d> inside; // in units of the radius: heights, then the place in the plane
   inside.reserve(points.size());
   for (const Offset& point : points) {
@@ -138,19 +148,21 @@ fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise)
     if (fitHeights(inside, round == 0 ? kFirstWindow * trim : trim, surface) < kFewestPoints)
       return patch;
   double sum_sq = 0.0, sum_4 = 0.0;
+  const double tilt = 1.0 / std::sqrt(1.0 + surface[1] * surface[1] + surface[2] * surface[2]);
   for (const Eigen::Vector3d& p : inside) {
-    const double height = p[0] - surface.dot(termsAt(p));
-    if (!(std::abs(height) <= trim))
+    const double above = p[0] - surface.dot(termsAt(p));
+    if (heights && std::abs(above) <= cut)
+      heights->push_back(static_cast<float>(above * tilt * radius / noise));
+    if (!(std::abs(above) <= trim))
       continue;
-    sum_sq += height * height;
-    sum_4 += height * height * height * height;
+    sum_sq += above * above;
+    sum_4 += above * above * above * above;
     ++patch.count;
   }
   if (patch.count < kFewestPoints)
     return patch;
   patch.trimmed = static_cast<double>(inside.size() - patch.count) / static_cast<double>(inside.size());
   patch.kurtosis = sum_sq > 0.0 ? static_cast<double>(patch.count) * sum_4 / (sum_sq * sum_sq) : 0.0;
-  const double tilt = 1.0 / std::sqrt(1.0 + surface[1] * surface[1] + surface[2] * surface[2]);
   patch.deviation = radius * tilt * std::sqrt(sum_sq / static_cast<double>(patch.count - kTerms));
   for (std::size_t axis = 0; axis < 3; ++axis)
     patch.foot[axis] = frame.axes(static_cast<Eigen::Index>(axis), 0) * surface[0] * radius;

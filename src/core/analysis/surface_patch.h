@@ -18,17 +18,21 @@ struct SurfacePatch {
   std::size_t count = 0;               ///< points that these are of
   Offset foot{0.0, 0.0, 0.0};          ///< where the normal through the origin meets it
   bool narrow = true;                  ///< the points follow a line: the plane may turn about it
+  double reach = 0.0;                  ///< radius of the cylinder that its points are in
 };
+
+/** In standard deviations. Wider takes in second sheets and outliers; narrower tells Gaussian from uniform noise too little. */
+constexpr double kPatchTrim = 2.25;
 
 /** \brief Fits a patch to points within `radius` of the origin, which is near the surface.
  *
  * `noise`, the deviation that is expected, decides what belongs to the surface: points within kPatchTrim of it; infinite: all. Only
  * a cylinder about the normal counts in which the ball cuts no such point off, so that the ball's shape is not taken for the noise's.
+ * `heights`, if given, gets the heights of all points in the cylinder about the patch, in units of `noise`, no further than `height` of
+ * it; then the cylinder is one in which the ball cuts off none of these.
  */
 SurfacePatch
-fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise);
-
-/** In standard deviations. Wider takes in second sheets and outliers; narrower tells Gaussian from uniform noise too little. */
-constexpr double kPatchTrim = 2.25;
+fitSurfacePatch(const std::vector<Offset>& points, double radius, double noise, double height = kPatchTrim,
+                std::vector<float>* heights = nullptr);
 
 } // namespace pcl_gpf

@@ -49,6 +49,30 @@ withOutliers(Shape shape, double share)
   return shape;
 }
 
+/** \brief Even noise of deviation `sigma` along the three axes. */
+Shape
+withEvenNoise(Shape shape, double sigma)
+{
+  SplitMix64 random(7);
+  for (Vector3& p : shape.points)
+    for (double& c : p)
+      c += std::sqrt(3.0) * sigma * (2 * random.uniform() - 1);
+  return shape;
+}
+
+/** \brief A shape of which the third axis becomes `axis`. */
+Shape
+facing(Shape shape, Vector3 axis)
+{
+  const double length = std::hypot(axis[0], axis[1], axis[2]), lateral = std::hypot(axis[0], axis[1]);
+  const Vector3 n{axis[0] / length, axis[1] / length, axis[2] / length};
+  const Vector3 u = lateral > 0 ? Vector3{axis[1] / lateral, -axis[0] / lateral, 0} : Vector3{1, 0, 0};
+  const Vector3 v{n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]};
+  for (Vector3& p : shape.points)
+    p = {p[0] * u[0] + p[1] * v[0] + p[2] * n[0], p[0] * u[1] + p[1] * v[1] + p[2] * n[1], p[0] * u[2] + p[1] * v[2] + p[2] * n[2]};
+  return shape;
+}
+
 /** \brief A unit square whose density falls as 1 / sqrt(x). */
 Shape
 denseAtOneEnd(std::size_t count, double noise, std::uint64_t seed)
@@ -140,12 +164,52 @@ TEST(Noise, ofAWallThinnerThanAPatchIsThatOfOneSide)
 TEST(Noise, thatIsEvenIsNotTakenForANormalOneThatWasTrimmed)
 {
   const double sigma = 0.01 * std::sqrt(3.0);
-  Shape shape = cube(20000, 0, 1);
-  SplitMix64 random(7);
-  for (Vector3& p : shape.points)
-    for (double& c : p)
-      c += std::sqrt(3.0) * sigma * (2 * random.uniform() - 1);
-  EXPECT_NEAR(noiseOf(turned(shape)) / sigma, 1.0, 0.06);
+  EXPECT_NEAR(noiseOf(turned(withEvenNoise(cube(20000, 0, 1), sigma))) / sigma, 1.0, 0.06);
+}
+
+TEST(Noise, ofTwoSheetsWhoseNoiseOverlapsIsThatOfOne)
+{
+  const std::size_t count = 33490;
+  const double sigma = 2 * std::sqrt(2.0 / static_cast<double>(count));
+  for (const double sigmas : {2.2, 3.0, 4.0})
+    EXPECT_NEAR(noiseOf(turned(sheets(count, sigmas * sigma, sigma, 1))) / sigma, 1.0, 0.2) << sigmas;
+  for (const double sigmas : {1.3, 2.5, 3.8})
+    EXPECT_NEAR(noiseOf(turned(withEvenNoise(sheets(count, sigmas * sigma, 0, 1), sigma))) / sigma, 1.0, 0.2) << "even " << sigmas;
+}
+
+/** Flat like that of two sheets, to the eye, whatever the angle between the sheet and the axes. */
+TEST(Noise, thatIsEvenOnOneSheetIsNotTakenForTwo)
+{
+  const std::size_t count = 33490;
+  for (const double spacings : {2.0, 5.0}) {
+    const double sigma = spacings / std::sqrt(static_cast<double>(count));
+    for (const Vector3& axis : {Vector3{0, 0, 1}, Vector3{0.1, 0.2, 1}, Vector3{0.3, 0.6, 1}, Vector3{0, 1, 1}, Vector3{1, 1, 1}})
+      EXPECT_NEAR(noiseOf(withEvenNoise(facing(plane(count, 0, 1), axis), sigma)) / sigma, 1.0, 0.2) << axis[0] << " " << spacings;
+  }
+  EXPECT_NEAR(noiseOf(withEvenNoise(sphere(count, 0, 1), 0.05)) / 0.05, 1.0, 0.2);
+}
+
+/** \brief Root mean square of a noise that grows threefold along x, on shapes with edges and without. */
+TEST(Noise, thatVariesOverTheSurfaceIsItsRootMeanSquare)
+{
+  for (const NoiseCase& c : {kNoiseCases[0], kNoiseCases[1], kNoiseCases[2]})
+    for (const double percent : {0.25, 1.0}) {
+      Shape shape = c.make(33490, 0, 1);
+      double low = 1e9, high = -1e9, squares = 0.0;
+      for (const Vector3& p : shape.points) {
+        low = std::fmin(low, p[0]);
+        high = std::fmax(high, p[0]);
+      }
+      SplitMix64 random(3);
+      for (Vector3& p : shape.points) {
+        const double sigma = percent / 100 * c.diagonal * (0.5 + (p[0] - low) / (high - low));
+        squares += sigma * sigma;
+        for (double& coordinate : p)
+          coordinate += sigma * random.normal();
+      }
+      const double rms = std::sqrt(squares / static_cast<double>(shape.size()));
+      EXPECT_NEAR(noiseOf(turned(shape)) / rms, 1.0, 0.2) << c.name << " " << percent;
+    }
 }
 
 TEST(Noise, ofACleanSurfaceIsFarBelowItsSpacing)
