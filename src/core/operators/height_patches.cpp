@@ -134,6 +134,7 @@ averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_norma
   HeightPatches patches;
   for (std::size_t k = 0; k < probes.size; ++k) {
     const float weight = std::max(1.0f, powers.weight[k]);
+    patches.count.push_back(powers.count[k]);
     patches.data.push_back(weight);
     patches.one_face.push_back(powers.weight[k] > kOneFace * powers.count[k]);
     patches.mean.push_back(powers.first[k] / weight);

@@ -49,6 +49,7 @@ private:
 /** Heights of the noisy points above the filtered surface, averaged over a patch about each probe. */
 struct HeightPatches {
   std::vector<std::uint8_t> one_face;                    ///< 0: reaches across an edge
+  std::vector<float> count;                              ///< of the points
   std::vector<float> data, mean, mean_size, mean_square; ///< sum of weights; of heights, of their sizes and of their squares
 };
 

@@ -15,6 +15,8 @@ namespace {
 
 /** Radius of a patch in spacings: about 20 points. */
 constexpr double kPatchSpacings = 2.5;
+/** Fewest points in a patch: a third of those. Where points are sparser, a yet narrower ball holds none but the point itself. */
+constexpr float kFewestPoints = 7.0f;
 /** Mean square of heights, in squares of the noise, that noise alone does not reach, beside an edge neither. */
 constexpr double kUnexplained = 2.25;
 /** Neighbourhood over which a narrower filter is judged, in patch radii. */
@@ -67,7 +69,7 @@ findThinParts(const ThinPartsParameters& p, const PointIndex& points, SoaBuffer 
   const HeightPatches patches = averageHeights(points.sorted(), std::move(positions), normals, p.noise, patchRadius(p), probes,
                                                resolveThreads(p.number_of_threads));
   for (std::size_t k = 0; k < probes.size; ++k)
-    if (patches.mean_square[k] > kUnexplained * p.noise * p.noise) {
+    if (patches.count[k] >= kFewestPoints && patches.mean_square[k] > kUnexplained * p.noise * p.noise) {
       found.places.push_back(static_cast<std::uint32_t>(k));
       found.mean_squares.push_back(patches.mean_square[k]);
     }

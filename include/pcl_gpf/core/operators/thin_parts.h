@@ -26,7 +26,8 @@ struct ThinParts {
 };
 
 /** \brief Finds where two sides of a wall may have been drawn together or a detail taken away: there the heights of the noisy points above
- * the filtered surface have a mean square, in a ball of 2.5 spacings, of more than 2.25 squares of the noise.
+ * the filtered surface have a mean square, in a ball of 2.5 spacings, of more than 2.25 squares of the noise. Balls of fewer than
+ * seven points say nothing.
  *
  * Neither signs nor faces take part, so walls between two edges are found, too; stronger noise is, as well (confirmThinParts()).
  * Heights count up to four deviations of those nearby, so that outliers do not decide.
