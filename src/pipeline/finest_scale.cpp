@@ -14,6 +14,8 @@ namespace {
 
 /** Noise in spacings up to which a ball of some ten points tells a surface from its noise. */
 constexpr double kFinestUpTo = 0.5;
+/** Least share of the points at which a third filter, whose normals are those of the whole cloud, is worth its time. */
+constexpr double kFewestPlaces = 0.025;
 
 /** The result at some rows only. */
 FilteredCloud
@@ -49,7 +51,7 @@ keepThinParts(const DenoiseParameters& parameters, const CloudScale& measured, c
   const PointsView points = packed.index->sorted();
   const ThinPartsParameters thin = {measured.noise, measured.spacing, parameters.number_of_threads};
   const ThinParts found = findThinParts(thin, *packed.index, movedPoints(points, {}, cloud.displacements), cloud.normals);
-  if (found.places.empty())
+  if (static_cast<double>(found.places.size()) < kFewestPlaces * static_cast<double>(points.size))
     return;
   const FilteredCloud finest = filter(parametersAt(FilterScale::Finest, parameters, scale, packed.frame, result), found.places);
   const FilteredCloud before = rowsOf(cloud, found.places);
