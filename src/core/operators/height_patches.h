@@ -54,9 +54,9 @@ struct HeightPatches {
 };
 
 /** \param[in] noisy sorted points \param[in] positions, normals of the filtered surface, in that order; the positions are used up
- * \param[in] radius of a patch */
+ * \param[in] radius of a patch \param[in] with_sizes false: mean_size stays empty, in half the time */
 HeightPatches
 averageHeights(PointsView noisy, SoaBuffer positions, const SoaBuffer& normals, double noise, double radius, const Probes& probes,
-               std::size_t threads);
+               std::size_t threads, bool with_sizes = true);
 
 } // namespace pcl_gpf

@@ -67,7 +67,7 @@ findThinParts(const ThinPartsParameters& p, const PointIndex& points, SoaBuffer 
     return found;
   const Probes probes(positions, normals, 1);
   const HeightPatches patches = averageHeights(points.sorted(), std::move(positions), normals, p.noise, patchRadius(p), probes,
-                                               resolveThreads(p.number_of_threads));
+                                               resolveThreads(p.number_of_threads), false);
   for (std::size_t k = 0; k < probes.size; ++k)
     if (patches.count[k] >= kFewestPoints && patches.mean_square[k] > kUnexplained * p.noise * p.noise) {
       found.places.push_back(static_cast<std::uint32_t>(k));
@@ -89,7 +89,7 @@ confirmThinParts(const ThinPartsParameters& p, const PointIndex& points, const T
     return confirmed;
   const std::size_t threads = resolveThreads(p.number_of_threads);
   const Probes probes(elementsOf(positions.view(), found.places), elementsOf(normals.view(), found.places), 1);
-  const HeightPatches patches = averageHeights(points.sorted(), std::move(positions), normals, p.noise, patchRadius(p), probes, threads);
+  const HeightPatches patches = averageHeights(points.sorted(), std::move(positions), normals, p.noise, patchRadius(p), probes, threads, false);
   const std::size_t padded = probes.size + kQueryBlock;
   AlignedArray<float> before(padded), after(padded), detail(padded);
   for (std::size_t k = 0; k < probes.size; ++k) {
