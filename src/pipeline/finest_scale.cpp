@@ -48,6 +48,8 @@ keepThinParts(const DenoiseParameters& parameters, const CloudScale& measured, c
 {
   if (!parameters.thin_parts || !(scale.noise > 0.0 && scale.noise <= kFinestUpTo * scale.spacing))
     return;
+  if (scale.noise < biasOfFewPoints(scale.spacing, static_cast<double>(packed.rows.size())))
+    return; // shape, not noise, is what such a cloud's heights are
   const PointsView points = packed.index->sorted();
   const ThinPartsParameters thin = {measured.noise, measured.spacing, parameters.number_of_threads};
   const ThinParts found = findThinParts(thin, *packed.index, movedPoints(points, {}, cloud.displacements), cloud.normals);

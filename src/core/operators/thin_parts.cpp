@@ -25,6 +25,8 @@ constexpr double kHearing = 2.0;
 constexpr double kFollows = 3.5, kLeastLeft = 0.25;
 /** Share of those heights from which on they are noise: where the coarse scale saw detail, and where it saw none. */
 constexpr double kNoiseIfDetail = 0.7, kNoiseIfSmooth = 0.45;
+/** Mean square of heights, in squares of the noise, that is a part with far stronger noise if the coarse scale saw no detail. */
+constexpr double kFarStronger = 20.0;
 /** Share of points with detail nearby up to which a place is smooth, and from which on it is not. */
 constexpr double kSmooth = 0.2, kDetailed = 0.5;
 
@@ -102,7 +104,9 @@ confirmThinParts(const ThinPartsParameters& p, const PointIndex& points, const T
   for (std::size_t k = 0; k < probes.size; ++k) {
     const double heard = std::max(1.0, static_cast<double>(heights.count[k]));
     const double was = heights.first[k] / heard, is = heights.second[k] / heard;
-    if (is < noiseShare(detailed.first[k] / heard) * leftOfNoise(was, p.spacing))
+    const double detail_near = detailed.first[k] / heard;
+    const bool far_stronger = detail_near < kDetailed / 2 && was > kFarStronger * p.noise * p.noise;
+    if (!far_stronger && is < noiseShare(detail_near) * leftOfNoise(was, p.spacing))
       confirmed.push_back(found.places[k]);
   }
   return confirmed;

@@ -44,7 +44,7 @@ findThinParts(const ThinPartsParameters& parameters, const PointIndex& points, S
  * A filter of few points follows noise of any strength s and leaves heights of s^2 / (1 + 3.5 s^2 / spacing^2), no less than s^2 / 4. Where
  * walls were drawn together it leaves those of the cloud's noise, far less than of noise as strong as the heights were. A place is
  * confirmed when less than 0.7 of the former is left within 5 spacings of it; less than 0.45 where the coarse scale, which knows
- * stronger noise from detail (selectFineScale()), saw no detail.
+ * stronger noise from detail (selectFineScale()), saw no detail, and nothing there that is over 20 squares of the noise.
  * \param[in] found what findThinParts() found before
  * \param[in] positions, normals the surface with the narrower filter's result at those places; the positions are given up
  * \param[in] fine 1 where the coarse scale lost detail, for every point
