@@ -91,7 +91,8 @@ confirmThinParts(const ThinPartsParameters& p, const PointIndex& points, const T
     return confirmed;
   const std::size_t threads = resolveThreads(p.number_of_threads);
   const Probes probes(elementsOf(positions.view(), found.places), elementsOf(normals.view(), found.places), 1);
-  const HeightPatches patches = averageHeights(points.sorted(), std::move(positions), normals, p.noise, patchRadius(p), probes, threads, false);
+  const HeightPatches patches =
+      averageHeights(points.sorted(), std::move(positions), normals, p.noise, patchRadius(p), probes, threads, false);
   const std::size_t padded = probes.size + kQueryBlock;
   AlignedArray<float> before(padded), after(padded), detail(padded);
   for (std::size_t k = 0; k < probes.size; ++k) {
