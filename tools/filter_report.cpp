@@ -77,6 +77,8 @@ filterReport(const FilterRun& run, const DenoiseResult& result, const std::vecto
     report["edge_points"] = countOnes(result.edge);
   if (!result.fine.empty())
     report["fine_points"] = countOnes(result.fine);
+  if (result.finest_points > 0)
+    report["finest_points"] = result.finest_points;
   report["fields"] = run.fields;
   report["scale"] = {{"spacing", result.scale.spacing}, {"noise", result.scale.noise},
                      {"diagonal", result.scale.diagonal}, {"h0", result.scale.h0}};
@@ -128,6 +130,8 @@ summaryText(const FilterRun& run, const DenoiseResult& result)
             shortNumber(result.gap_iterations.front().max_movement) + "\n";
   if (!result.fine.empty())
     text += std::to_string(countOnes(result.fine)) + " points from the fine scale, the others from the coarse one\n";
+  if (result.finest_points > 0)
+    text += std::to_string(result.finest_points) + " of them from the finest scale: thin parts\n";
   const std::size_t limited = std::max(result.limited_points, run.movement.limited);
   if (limited > 0)
     text += std::to_string(limited) + " moves cut to " + shortNumber(result.max_move) + "\n";

@@ -3,6 +3,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "cloud_flags.h"
+#include "finest_scale.h"
 #include "foresight.h"
 #include "gap_stage.h"
 #include "move_limit.h"
@@ -41,20 +42,6 @@ estimateMissingNormals(const PlaneNormalsParameters& parameters, Packed& packed)
   }
 }
 
-/** Lengths of the parameters from cloud units into the normalised frame. */
-DenoiseParameters
-toLocal(DenoiseParameters p, const LocalFrame& frame)
-{
-  p.normals.radius = frame.lengthToLocal(p.normals.radius);
-  p.bilateral.radius = frame.lengthToLocal(p.bilateral.radius);
-  p.gpf.support_radius = frame.lengthToLocal(p.gpf.support_radius);
-  p.steered.radius = frame.lengthToLocal(p.steered.radius);
-  p.steered.direction_radius = frame.lengthToLocal(p.steered.direction_radius);
-  p.normals.number_of_threads = p.bilateral.number_of_threads = p.gpf.number_of_threads = p.steered.number_of_threads =
-      p.number_of_threads;
-  return p;
-}
-
 ProgressCallback
 stageOf(std::string name, const StageProgress& progress)
 {
@@ -67,7 +54,8 @@ stageOf(std::string name, const StageProgress& progress)
 std::string
 stageName(const char* stage, FilterScale filter_scale)
 {
-  return filter_scale == FilterScale::Fine ? std::string("fine ") + stage : stage;
+  const char* const prefix = filter_scale == FilterScale::Finest ? "finest " : filter_scale == FilterScale::Fine ? "fine " : "";
+  return std::string(prefix) + stage;
 }
 
 /** Everything that does not depend on lengths: packs, measures. */
@@ -174,6 +162,12 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
     cloud.fine.assign(packed.rows.size(), 0);
     for (const std::uint32_t k : places)
       cloud.fine[k] = 1;
+    const auto filter_finest = [&](const DenoiseParameters& finest, const std::vector<std::uint32_t>& at) {
+      std::vector<IterationStats> iterations;
+      return filterAt(FilterScale::Finest, finest, at, iterations);
+    };
+    keepThinParts(parameters, measured, scale, packed, filter_finest, cloud, result);
+    watch.lap();
   }
   findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
   limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud, result);

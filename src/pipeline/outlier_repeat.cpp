@@ -130,6 +130,7 @@ repeatWithoutOutliers(const DenoiseInput& input, DenoiseResult first, const std:
   first.scale = second.scale;
   first.parameters = std::move(second.parameters);
   first.iterations = std::move(second.iterations);
+  first.finest_points = second.finest_points;
   first.fine_iterations = std::move(second.fine_iterations);
   first.gap_iterations = std::move(second.gap_iterations);
   first.seconds_normals += second.seconds_normals;

@@ -10,7 +10,7 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Rounds and angle of the bilateral normal filter and iterations of GPF at the fine scale, at most. More of them would turn small bosses
+/** Rounds and angle of the bilateral normal filter and iterations of GPF at the finer scales, at most. More of them would turn small bosses
  * into slopes; what noise is left, the steered fit takes away. */
 constexpr unsigned kFineRounds = 2, kFineIterations = 4;
 constexpr double kFineAngle = 25.0;
@@ -33,13 +33,26 @@ biasOfFewPoints(double spacing, double points)
 }
 
 DenoiseParameters
+toLocal(DenoiseParameters p, const LocalFrame& frame)
+{
+  p.normals.radius = frame.lengthToLocal(p.normals.radius);
+  p.bilateral.radius = frame.lengthToLocal(p.bilateral.radius);
+  p.gpf.support_radius = frame.lengthToLocal(p.gpf.support_radius);
+  p.steered.radius = frame.lengthToLocal(p.steered.radius);
+  p.steered.direction_radius = frame.lengthToLocal(p.steered.direction_radius);
+  p.normals.number_of_threads = p.bilateral.number_of_threads = p.gpf.number_of_threads = p.steered.number_of_threads =
+      p.number_of_threads;
+  return p;
+}
+
+DenoiseParameters
 parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const CloudScale& scale, const LocalFrame& frame,
              DenoiseResult& result)
 {
   const auto note = [&](std::vector<ParameterOrigin> origins) {
     for (ParameterOrigin& origin : origins) {
       origin.value = frame.lengthToWorld(origin.value);
-      origin.name.insert(0, filter_scale == FilterScale::Fine ? "fine." : "");
+      origin.name.insert(0, filter_scale == FilterScale::Finest ? "finest." : filter_scale == FilterScale::Fine ? "fine." : "");
       if (origin.reason.find("noise") != std::string::npos)
         origin.reason += strengthNote(parameters.strength);
       result.parameters.push_back(std::move(origin));
@@ -52,6 +65,8 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
       parameters.steered.passes = 0;
     if (parameters.steered.passes > 0)
       note(estimateParameters(scale, parameters.steered));
+  }
+  if (filter_scale == FilterScale::Fine || filter_scale == FilterScale::Finest) {
     const bool strong = scale.noise > kSteeredUpTo * scale.diagonal;
     parameters.bilateral.iterations = std::min(parameters.bilateral.iterations, strong ? kFineRoundsAlone : kFineRounds);
     parameters.bilateral.merge_above = std::min(parameters.bilateral.merge_above, kFineMergeAbove);

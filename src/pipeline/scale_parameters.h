@@ -16,6 +16,10 @@ constexpr std::size_t kFewestForNoise = 48;
 double
 biasOfFewPoints(double spacing, double points);
 
+/** Lengths of the parameters from cloud units into the normalised frame; the number of threads for every stage. */
+DenoiseParameters
+toLocal(DenoiseParameters parameters, const LocalFrame& frame);
+
 /** Fills the lengths that are to be estimated (estimateParameters()) and notes in `result` where they came from.
  * \param[in] parameters lengths in the normalised frame
  * \param[in] scale normalised frame, noise times the strength

@@ -132,7 +132,7 @@ TEST(Denoise, keepsEveryPointInOrderByDefault)
   ASSERT_EQ(result.x.size(), cloud.size());
   EXPECT_EQ(result.non_finite_points, 0u);
   EXPECT_EQ(result.estimated_normals, cloud.size());
-  EXPECT_EQ(result.parameters.size(), 7u); // three lengths of each scale, and the limit of moves; no steered fit below 0.75 spacings
+  EXPECT_EQ(result.parameters.size(), 10u); // three lengths of each of three scales (edges are thin here), and the limit of moves; no steered fit below 0.75 spacings
   EXPECT_FALSE(result.iterations.empty());
   EXPECT_EQ(result.fine.size(), cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -71,6 +71,8 @@ allEffective(const Options& options, const DenoiseParameters& used, const Denois
     for (const FilterParameter& parameter : filterParameters())
       if (estimate.name == "fine." + parameter.field)
         list.push_back({"fine-" + parameter.option.name, estimate.value, estimate.origin, estimate.reason});
+      else if (estimate.name == "finest." + parameter.field)
+        list.push_back({"finest-" + parameter.option.name, estimate.value, estimate.origin, estimate.reason});
   for (EffectiveParameter& parameter : list)
     if (parameter.name == "two-scales" && used.two_scales && result.fine.empty())
       parameter = {parameter.name, std::string("off"), parameter.origin, "a radius, repulsion, gap filling, samples or the paper's recursion is asked for"};

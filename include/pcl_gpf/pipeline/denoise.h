@@ -36,6 +36,10 @@ struct DenoiseParameters {
    * otherwise one scale. */
   bool two_scales = true;
 
+  /** Filter a third time with yet narrower balls where the two scales drew thin parts together (findThinParts()); only with two scales and
+   * where noise is at most half of the spacing. */
+  bool thin_parts = true;
+
   /** Planes over neighbourhoods that follow edges, fitted at the points that take the fine result; `passes` = 0: none. */
   SteeredFitParameters steered;
 
@@ -75,7 +79,8 @@ struct DenoiseResult {
   std::vector<float> normal_x, normal_y, normal_z;
   std::vector<std::uint32_t> sample_indices; ///< row of the input that seeded each output point, ascending
   std::vector<std::uint8_t> isolated;        ///< 1 = no data in reach but the point itself: nothing filtered it
-  std::vector<std::uint8_t> fine;            ///< 1 = the fine scale's result was taken; empty when one scale was filtered
+  std::vector<std::uint8_t> fine;            ///< 1 = the fine or finest scale's result was taken; empty when one scale was filtered
+  std::size_t finest_points = 0;             ///< points that took the finest scale's result
   static constexpr float kOutlier = 0.5f;    ///< points above are outliers
   std::vector<float> outlier;                ///< probability 0 .. 1 that the point is none of the surface (outlierProbabilities()); 0 below about 200 points, too few to tell
   std::vector<double> sigma;                 ///< noise that was taken out about the point, cloud units (localNoise())
@@ -99,7 +104,7 @@ struct DenoiseResult {
   double seconds_filter = 0;
 };
 
-/** \brief Called with the stage ("normals", "bilateral", "filter", "gaps" where they are filled, then "fine normals", ... where two scales are filtered, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
+/** \brief Called with the stage ("normals", "bilateral", "filter", "gaps" where they are filled, then "fine normals", ... where two scales are filtered, "finest normals", ... where thin parts are, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
 using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
 
 /** \brief Filters a cloud given in double coordinates, every finite point by default; rows that are not finite are left out.

@@ -107,7 +107,7 @@ Balls::sum(const AlignedArray<float>& first, const AlignedArray<float>& second) 
 
 HeightPatches
 averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_normals, double noise, double radius, const Probes& probes,
-               std::size_t threads)
+               std::size_t threads, bool with_sizes)
 {
   AlignedArray<float> heights(positions.size() + kQueryBlock);
   for (std::size_t k = 0; k < positions.size(); ++k)
@@ -130,15 +130,17 @@ averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_norma
   markEnd(positions);
   Balls balls(probes, positions.view(), radius, threads);
   balls.weigh(some_normals.size() > 0 ? some_normals : all_normals);
-  const FieldTotals powers = balls.sum(heights, squares), lengths = balls.sum(sizes, squares);
+  const FieldTotals powers = balls.sum(heights, squares), lengths = with_sizes ? balls.sum(sizes, squares) : FieldTotals(0);
   HeightPatches patches;
   for (std::size_t k = 0; k < probes.size; ++k) {
     const float weight = std::max(1.0f, powers.weight[k]);
+    patches.count.push_back(powers.count[k]);
     patches.data.push_back(weight);
     patches.one_face.push_back(powers.weight[k] > kOneFace * powers.count[k]);
     patches.mean.push_back(powers.first[k] / weight);
     patches.mean_square.push_back(powers.second[k] / weight);
-    patches.mean_size.push_back(lengths.first[k] / weight);
+    if (with_sizes)
+      patches.mean_size.push_back(lengths.first[k] / weight);
   }
   return patches;
 }

@@ -120,7 +120,7 @@ TEST(EstimateParameters, growsWithNoiseButNotBelowWhatTheSpacingAsksFor)
   EXPECT_GT(radius(0.0), 3 * 0.01);
 }
 
-TEST(EstimateParameters, fineScaleIsBelowTheCoarseOneInEveryLength)
+TEST(EstimateParameters, finerScalesAreBelowTheOthersInEveryLength)
 {
   for (const double noise : {0.0, 0.004, 0.01, 0.1}) {
     Parameters fine, coarse;
@@ -130,6 +130,11 @@ TEST(EstimateParameters, fineScaleIsBelowTheCoarseOneInEveryLength)
     EXPECT_LT(fine.normals.radius, coarse.normals.radius);
     EXPECT_LT(fine.bilateral.radius, coarse.bilateral.radius);
     EXPECT_LT(fine.gpf.support_radius, coarse.gpf.support_radius);
+    Parameters finest;
+    estimateParameters(scale, finest.normals, finest.bilateral, finest.gpf, FilterScale::Finest);
+    EXPECT_LT(finest.normals.radius, fine.normals.radius);
+    EXPECT_LT(finest.bilateral.radius, fine.bilateral.radius);
+    EXPECT_LT(finest.gpf.support_radius, fine.gpf.support_radius);
   }
 }
 

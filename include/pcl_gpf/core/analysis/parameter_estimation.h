@@ -39,8 +39,9 @@ struct ParameterOrigin {
   std::string reason; ///< one phrase, for example "12 x noise"
 };
 
-/** \brief Which lengths are estimated: those of a filter that runs alone, or of the two between which selectFineScale() chooses. */
-enum class FilterScale { Single, Coarse, Fine };
+/** \brief Which lengths are estimated: those of a filter that runs alone, of the two between which selectFineScale() chooses, or of the
+ * one that findThinParts() asks for. */
+enum class FilterScale { Single, Coarse, Fine, Finest };
 
 /** \brief Fills every parameter that is 0 = estimated from the scale of the cloud and tells why.
  *
