@@ -49,9 +49,10 @@ toLocal(DenoiseParameters p, const LocalFrame& frame)
   p.bilateral.radius = frame.lengthToLocal(p.bilateral.radius);
   p.gpf.support_radius = frame.lengthToLocal(p.gpf.support_radius);
   p.steered.radius = frame.lengthToLocal(p.steered.radius);
+  p.quadric.radius = frame.lengthToLocal(p.quadric.radius);
   p.steered.direction_radius = frame.lengthToLocal(p.steered.direction_radius);
   p.normals.number_of_threads = p.bilateral.number_of_threads = p.gpf.number_of_threads = p.steered.number_of_threads =
-      p.number_of_threads;
+      p.quadric.number_of_threads = p.number_of_threads;
   return p;
 }
 
@@ -171,6 +172,8 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
       steer(fine.steered, packed, places, cloud, stageOf("fine planes", progress));
       result.seconds_filter += watch.lap();
     }
+    fitSmoothParts(p.quadric, packed, cloud, stageOf("quadrics", progress));
+    result.seconds_filter += watch.lap();
     cloud.fine.assign(packed.rows.size(), 0);
     for (const std::uint32_t k : places)
       cloud.fine[k] = 1;
@@ -191,6 +194,7 @@ validate(const DenoiseParameters& parameters)
   validate(parameters.bilateral);
   validate(parameters.normals);
   validate(parameters.steered);
+  validate(parameters.quadric);
   if (!(parameters.max_move >= 0.0))
     throw InvalidParameter("max_move must be >= 0, 0 = estimated");
   if (!(parameters.strength >= 0.5 && parameters.strength <= 2.0))

@@ -19,6 +19,9 @@ constexpr double kSteeredFrom = 0.75;
 /** Noise in box diagonals up to which they are: neighbourhoods reach ten noises, and beyond this as far as the shape bends. */
 constexpr double kSteeredUpTo = 0.02;
 
+/** Noise in spacings below which there is nothing that wider balls could average. */
+constexpr double kNoNoise = 0.02;
+
 } // namespace
 
 double
@@ -41,6 +44,14 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
     }
   };
   note(estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale));
+  if (filter_scale == FilterScale::Coarse && parameters.quadric.levels > 0) {
+    parameters.quadric.noise = scale.noise;
+    parameters.quadric.spacing = scale.spacing;
+    if (scale.noise < kNoNoise * scale.spacing)
+      parameters.quadric.levels = 0;
+    else
+      note(estimateParameters(scale, parameters.quadric));
+  }
   if (filter_scale == FilterScale::Fine) {
     const bool steerable = scale.noise >= kSteeredFrom * scale.spacing && scale.noise <= kSteeredUpTo * scale.diagonal;
     if (parameters.steered.radius == 0.0 && !steerable)

@@ -32,6 +32,7 @@ const Ablation kAblations[] = {
     {"one-iteration", "", [](DenoiseParameters& p) { p.gpf.maximum_iterations = 1; }},
     {"one-scale", "the lengths of a filter that runs alone", [](DenoiseParameters& p) { p.two_scales = false; }},
     {"no-steered-fit", "the fine scale as GPF leaves it", [](DenoiseParameters& p) { p.steered.passes = 0; }},
+    {"no-quadric-fit", "smooth parts as planes leave them", [](DenoiseParameters& p) { p.quadric.levels = 0; }},
     {"no-limit", "moves of any length",
      [](DenoiseParameters& p) { p.max_move = std::numeric_limits<double>::infinity(); }},
     {"keep-outliers", "outliers stay among the data of the others",
