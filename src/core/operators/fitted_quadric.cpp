@@ -85,6 +85,7 @@ solveQuadric(const float* sums, std::size_t row, double least_variance, FittedQu
   Eigen::Matrix<double, 3, 2> slopes;
   for (std::size_t k = 0; k < 6; ++k)
     slopes(static_cast<Eigen::Index>(k % 3), static_cast<Eigen::Index>(k / 3)) = sum(Moments::kSlopes + k);
+  quadric.bending = std::abs(q[3] + q[5]) + std::hypot(q[3] - q[5], q[4]);
   quadric.unevenness = unevennessOf(a, slopes, sum(Moments::kSlopeSquare));
   // Means of points on a curved surface lie inside it; noise that moves points sideways lifts them outside.
   q[0] += (q[3] + q[5]) * (variance - sum(Moments::kSpread) / weight);

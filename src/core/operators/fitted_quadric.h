@@ -12,6 +12,7 @@ struct FittedQuadric {
   Eigen::Matrix<double, 6, 1> of; ///< height = of . (1, x, y, x^2, x y, y^2)
   double misfit = 0;              ///< variance of means about it in those that the points of the means explain
   double unevenness = 0;          ///< deviation of normals from an even change in that which is allowed
+  double bending = 0;             ///< the larger of its curvatures, by size
 
   /** \brief Height at a place, the fourth order that curvatures imply set right. */
   double

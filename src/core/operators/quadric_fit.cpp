@@ -19,10 +19,12 @@ namespace {
 /** Widest ball, in box diagonals: a quarter of the cloud is no neighbourhood. */
 constexpr double kWidest = 0.25;
 /** Points of the narrowest ball for each of its fits. */
-constexpr double kPointsPerFit = 48.0;
+constexpr double kPointsPerFit = 40.0;
 constexpr std::size_t kMostShare = 64;
 /** Misfit at which a quadric counts for nothing, above that up to which it counts fully; unevenness likewise, from 1 on. */
 constexpr double kMisfitRange = 0.3, kUnevenRange = 0.4;
+/** The radius of the ball in those of curvature up to which a quadric counts fully, and from which it counts for nothing. */
+constexpr double kBending = 0.85, kBendingRange = 0.3;
 /** The narrowest quadrics average hardly more than the filter did: they move points this share of the way. */
 constexpr double kFirstShare = 0.6;
 /** Least cosine of a point's normal with that of the fit that serves it. */
@@ -110,7 +112,8 @@ private:
       belief_[fit] = 0.0;
       return;
     }
-    belief_[fit] *= falling(quadric.misfit, p_.misfit, p_.misfit + kMisfitRange) * falling(quadric.unevenness, 1.0, 1.0 + kUnevenRange);
+    belief_[fit] *= falling(quadric.misfit, p_.misfit, p_.misfit + kMisfitRange) * falling(quadric.unevenness, 1.0, 1.0 + kUnevenRange) *
+                    falling(quadric.bending, kBending, kBending + kBendingRange);
     if (belief_[fit] < 1e-3)
       belief_[fit] = 0.0;
     const std::size_t end = std::min(data_.points().size(), (fit + 1) * share_);

@@ -12,9 +12,9 @@ struct QuadricFitParameters {
   double radius = 0.0;       ///< of the narrowest ball, >= 0; 0 = estimated, where something estimates it
   double noise = 0.0;        ///< standard deviation along the normal at the quietest places, >= 0, the unit of the radius
   double spacing = 0.0;      ///< of the points, > 0, the unit of the radius
-  unsigned levels = 4;       ///< balls of radius 1, sqrt(2), 2, ... times `radius`; 0 = no fit
-  double misfit = 1.15;      ///< variance of mean heights about the quadric, in those that noise explains, up to which it is believed, > 0
-  unsigned merge_above = 128; ///< a ball that holds more points is represented by between half as many and as many means, >= 16
+  unsigned levels = 5;       ///< balls of radius 1, sqrt(2), 2, ... times `radius`; 0 = no fit
+  double misfit = 1.2;      ///< variance of mean heights about the quadric, in those that noise explains, up to which it is believed, > 0
+  unsigned merge_above = 192; ///< a ball that holds more points is represented by between half as many and as many means, >= 16
 
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
   unsigned number_of_threads = 0;
