@@ -159,6 +159,8 @@ denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const St
       steer(fine.steered, packed, places, cloud, stageOf("fine planes", progress));
       result.seconds_filter += watch.lap();
     }
+    fitSmoothParts(p.quadric, packed, cloud, stageOf("quadrics", progress));
+    result.seconds_filter += watch.lap();
     cloud.fine.assign(packed.rows.size(), 0);
     for (const std::uint32_t k : places)
       cloud.fine[k] = 1;
@@ -185,6 +187,7 @@ validate(const DenoiseParameters& parameters)
   validate(parameters.bilateral);
   validate(parameters.normals);
   validate(parameters.steered);
+  validate(parameters.quadric);
   if (!(parameters.max_move >= 0.0))
     throw InvalidParameter("max_move must be >= 0, 0 = estimated");
   if (!(parameters.strength >= 0.5 && parameters.strength <= 2.0))

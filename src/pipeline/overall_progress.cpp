@@ -12,6 +12,7 @@ namespace pcl_gpf {
 namespace {
 
 /** Microseconds of one thread a point; a fine stage works on some of them only. */
+constexpr double kQuadrics = 1.0;
 constexpr double kNormals = 6.0, kBilateral = 8.0, kFilter = 8.0, kFineShare = 0.4, kOrient = 12.0, kEdgeAwarePoint = 25.0, kMlsPoint = 15.0,
                  kMeshPoint = 20.0, kPoissonPoint = 40.0;
 /** The same a cell of the surface's longest side, squared. */
@@ -54,6 +55,8 @@ expectedStages(const ConsolidationParameters& p, std::size_t points, double long
       stages.push_back({"fine " + stages[k].name, kFineShare * stages[k].cost});
   if (p.filter && filtersTwoScales(p.denoise) && p.denoise.steered.passes > 0)
     stages.push_back({"fine planes", kFineShare * kFilter * count});
+  if (p.filter && filtersTwoScales(p.denoise) && p.denoise.quadric.levels > 0)
+    stages.push_back({"quadrics", kQuadrics * count});
   if (p.filter)
     count *= p.denoise.gpf.sample_ratio;
   if (p.orient)

@@ -24,6 +24,9 @@ constexpr double kSteeredFrom = 0.75;
 /** Noise in box diagonals up to which they are: neighbourhoods reach ten noises, and beyond this as far as the shape bends. */
 constexpr double kSteeredUpTo = 0.02;
 
+/** Noise in spacings below which there is nothing that wider balls could average. */
+constexpr double kNoNoise = 0.02;
+
 } // namespace
 
 double
@@ -39,9 +42,10 @@ toLocal(DenoiseParameters p, const LocalFrame& frame)
   p.bilateral.radius = frame.lengthToLocal(p.bilateral.radius);
   p.gpf.support_radius = frame.lengthToLocal(p.gpf.support_radius);
   p.steered.radius = frame.lengthToLocal(p.steered.radius);
+  p.quadric.radius = frame.lengthToLocal(p.quadric.radius);
   p.steered.direction_radius = frame.lengthToLocal(p.steered.direction_radius);
   p.normals.number_of_threads = p.bilateral.number_of_threads = p.gpf.number_of_threads = p.steered.number_of_threads =
-      p.number_of_threads;
+      p.quadric.number_of_threads = p.number_of_threads;
   return p;
 }
 
@@ -59,6 +63,14 @@ parametersAt(FilterScale filter_scale, DenoiseParameters parameters, const Cloud
     }
   };
   note(estimateParameters(scale, parameters.normals, parameters.bilateral, parameters.gpf, filter_scale));
+  if (filter_scale == FilterScale::Coarse && parameters.quadric.levels > 0) {
+    parameters.quadric.noise = scale.noise;
+    parameters.quadric.spacing = scale.spacing;
+    if (scale.noise < kNoNoise * scale.spacing)
+      parameters.quadric.levels = 0;
+    else
+      note(estimateParameters(scale, parameters.quadric));
+  }
   if (filter_scale == FilterScale::Fine) {
     const bool steerable = scale.noise >= kSteeredFrom * scale.spacing && scale.noise <= kSteeredUpTo * scale.diagonal;
     if (parameters.steered.radius == 0.0 && !steerable)

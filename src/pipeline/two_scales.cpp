@@ -41,6 +41,21 @@ steer(const SteeredFitParameters& parameters, const Packed& packed, const std::v
 }
 
 void
+fitSmoothParts(const QuadricFitParameters& parameters, const Packed& packed, FilteredCloud& cloud, const ProgressCallback& progress)
+{
+  if (parameters.levels == 0)
+    return;
+  const PointsView points = packed.index->sorted();
+  SoaBuffer positions = movedPoints(points, {}, cloud.displacements);
+  fitQuadrics(parameters, points, positions.view(), cloud.normals.view(), progress);
+  for (std::size_t k = 0; k < points.size; ++k) {
+    cloud.displacements.x[k] = positions.x[k] - points.x[k];
+    cloud.displacements.y[k] = positions.y[k] - points.y[k];
+    cloud.displacements.z[k] = positions.z[k] - points.z[k];
+  }
+}
+
+void
 replaceAt(const std::vector<std::uint32_t>& places, const FilteredCloud& fine, FilteredCloud& whole)
 {
   const auto copy = [](const SoaBuffer& from, std::size_t s, SoaBuffer& to, std::size_t k) {

@@ -3,6 +3,7 @@
 
 #include "packed_cloud.h"
 
+#include <pcl_gpf/core/operators/quadric_fit.h>
 #include <pcl_gpf/core/operators/scale_selection.h>
 #include <pcl_gpf/core/operators/steered_fit.h>
 
@@ -23,6 +24,10 @@ lostDetail(const ScaleSelectionParameters& selection, const Packed& packed, cons
 void
 steer(const SteeredFitParameters& parameters, const Packed& packed, const std::vector<std::uint32_t>& places, FilteredCloud& cloud,
       const ProgressCallback& progress);
+
+/** Moves smooth parts of the filtered cloud onto quadrics (fitQuadrics()). \param[in] parameters normalised frame */
+void
+fitSmoothParts(const QuadricFitParameters& parameters, const Packed& packed, FilteredCloud& cloud, const ProgressCallback& progress);
 
 /** Puts the results at `places` into the whole. */
 void

@@ -7,6 +7,7 @@
 #include <pcl_gpf/core/operators/bilateral_normals.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/operators/quadric_fit.h>
 #include <pcl_gpf/core/operators/steered_fit.h>
 
 #include <array>
@@ -42,6 +43,10 @@ struct DenoiseParameters {
 
   /** Planes over neighbourhoods that follow edges, fitted at the points that take the fine result; `passes` = 0: none. */
   SteeredFitParameters steered;
+
+  /** Quadrics fitted in wide balls, to which points of smooth parts move at last; only where two scales are filtered. Noise and spacing
+   * are those that are measured; `levels` = 0: none. */
+  QuadricFitParameters quadric;
 
   /** Largest distance that a point may be moved, cloud units, >= 0; 0 = estimated as 6 times the noise, so that a clean cloud
    * stays as it is, and so do clouds of too few points (below 48, or a few hundred whose noise cannot be told from the shape).

@@ -35,7 +35,7 @@ rulesOf(FilterScale filter_scale)
   }
 }
 
-constexpr LengthRule kSteeredRadius = {2.52, 3.3, true}, kDirectionRadius = {5.2, 7.8};
+constexpr LengthRule kSteeredRadius = {2.52, 3.3, true}, kDirectionRadius = {5.2, 7.8}, kQuadricRadius = {5.9, 9.0};
 
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)
@@ -113,6 +113,14 @@ estimateParameters(const CloudScale& scale, SteeredFitParameters& steered)
   std::vector<ParameterOrigin> origins;
   fill(steered.radius, lengthFromScale("steered.radius", scale, kSteeredRadius), origins);
   fill(steered.direction_radius, lengthFromScale("steered.direction_radius", scale, kDirectionRadius), origins);
+  return origins;
+}
+
+std::vector<ParameterOrigin>
+estimateParameters(const CloudScale& scale, QuadricFitParameters& quadric)
+{
+  std::vector<ParameterOrigin> origins;
+  fill(quadric.radius, lengthFromScale("quadric.radius", scale, kQuadricRadius), origins);
   return origins;
 }
 

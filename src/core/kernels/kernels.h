@@ -47,6 +47,7 @@ struct KernelSet {
   void (*widest_gaps)(const WidestGaps&);
   void (*better_gaps)(const BetterGaps&);
   void (*steered_moments)(const Candidates&, const SteeredMoments&, std::size_t begin, std::size_t end);
+  void (*quadric_moments)(const Candidates&, const QuadricMoments&, std::size_t begin, std::size_t end);
   void (*near_children)(const NearChildren&);
 };
 

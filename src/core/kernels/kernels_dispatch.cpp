@@ -20,6 +20,7 @@
 #include "implicit_sums-inl.h"
 #include "near_children-inl.h"
 #include "projection-inl.h"
+#include "quadric_moments-inl.h"
 #include "repulsion-inl.h"
 #include "side_sums-inl.h"
 #include "steered_moments-inl.h"
@@ -171,10 +172,16 @@ steeredMoments(const Candidates& candidates, const SteeredMoments& a, std::size_
     streamPairs<PlainSteeredMomentSum, float>(candidates, a, begin, end);
 }
 
+static void
+quadricMoments(const Candidates& candidates, const QuadricMoments& a, std::size_t begin, std::size_t end)
+{
+  streamPairs<QuadricMomentSum, float>(candidates, a, begin, end);
+}
+
 static const KernelSet kKernelSet = {gaussianSums<float>, gaussianSums<double>, projection<float>, projection<double>,
                               repulsion<float>,    repulsion<double>,    bilateralNormals,  implicitSums,
                               moments,             fieldSums,            sideSums,            widestGaps,
-                              betterGaps,          steeredMoments,       nearChildren};
+                              betterGaps,          steeredMoments,       quadricMoments,      nearChildren};
 
 } // namespace HWY_NAMESPACE
 } // namespace kernels

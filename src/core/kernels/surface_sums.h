@@ -59,6 +59,33 @@ struct SteeredMoments {
   MutableVectors<float> scatter_mixed;    ///< yz xz xy
 };
 
+/** Normal equations of a quadric that is fitted to heights over the plane of each query, weight = (1 - r^2)^2 data_weight; all lengths
+ * in radii, x and y along axis_u and axis_v. */
+struct QuadricMoments {
+  enum : std::size_t {
+    kMonomials = 0,     ///< weight x^i y^j: i = 0, j = 0 .. 4; i = 1, j = 0 .. 3; ...
+    kHeights = 15,      ///< weight height * (1, x, y, x^2, x y, y^2)
+    kSquare = 21,       ///< weight height^2
+    kSlopes = 22,       ///< weight m.u * (1, x, y), then m.v; m the datum's normal on the side of axis_n
+    kSlopeSquare = 28,  ///< weight ((m.u)^2 + (m.v)^2)
+    kAgreement = 29,    ///< weight m.n
+    kBell = 30,         ///< (1 - r^2)^2
+    kWithin = 31,       ///< the same * within
+    kSpread = 32,       ///< weight spread
+    kSums = 33
+  };
+  Vectors<float> queries, axis_u, axis_v, axis_n; ///< axes: an orthonormal frame of each query
+  Vectors<float> data, noisy, data_normals;       ///< where a datum lies, where its height is taken, its normal of free sign
+  const float* data_weight = nullptr;
+  const float* within = nullptr;
+  const float* spread = nullptr;
+  Radius<float> radius;         ///< one for all
+  float one_by_radius = 0;
+  std::size_t first_output = 0; ///< query whose results go to the first place of each row
+  float* sums = nullptr;        ///< kSums rows
+  std::size_t row = 0;          ///< length of a row
+};
+
 /** Sums of two fields over the data in reach; a datum weighs as much as its normal agrees with the query's, in shape
  * exp(-((1 - |cos|) normal_falloff)^2). */
 struct FieldSums {

@@ -5,6 +5,7 @@
 #include <pcl_gpf/core/operators/bilateral_normals.h>
 #include <pcl_gpf/core/operators/gpf_parameters.h>
 #include <pcl_gpf/core/operators/plane_normals.h>
+#include <pcl_gpf/core/operators/quadric_fit.h>
 #include <pcl_gpf/core/operators/steered_fit.h>
 #include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/views.h>
@@ -57,5 +58,9 @@ estimateParameters(const CloudScale& scale,
 /** \brief The same for the fit that follows the fine scale. */
 PCL_GPF_CORE_EXPORT std::vector<ParameterOrigin>
 estimateParameters(const CloudScale& scale, SteeredFitParameters& steered);
+
+/** \brief The same for the quadrics of smooth parts. */
+PCL_GPF_CORE_EXPORT std::vector<ParameterOrigin>
+estimateParameters(const CloudScale& scale, QuadricFitParameters& quadric);
 
 } // namespace pcl_gpf
