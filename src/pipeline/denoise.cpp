@@ -119,62 +119,98 @@ project(const GPFParameters& parameters, FilterScale filter_scale, const std::ve
   return cloud;
 }
 
+/** The chain over one packed cloud, at the scales that it needs. */
+class Chain {
+public:
+  Chain(const DenoiseInput& input, const DenoiseParameters& wanted, const StageProgress& progress, DenoiseResult& result)
+  : input_(input)
+  , progress_(progress)
+  , parameters_(wanted)
+  , result_(result)
+  {
+    const Stopwatch watch;
+    packed_ = prepare(input, parameters_, runsInDouble(parameters_.gpf), measured_, result);
+    result.seconds_normals = watch.elapsed();
+    scale_ = measured_;
+    scale_.noise *= parameters_.strength;
+    samples_ = drawSamples(parameters_.gpf, packed_);
+    two_scales_ = filtersTwoScales(parameters_) && scale_.spacing > 0.0;
+  }
+
+  /** The whole of it, into the result. */
+  void
+  run(const DenoiseParameters& wanted)
+  {
+    const DenoiseParameters p = parametersAt(two_scales_ ? FilterScale::Coarse : FilterScale::Single, parameters_, scale_, packed_.frame, result_);
+    refuseExcessiveStages(p, packed_, samples_.empty() ? packed_.rows.size() : samples_.size());
+    FilteredCloud cloud = filter(two_scales_ ? FilterScale::Coarse : FilterScale::Single, p, samples_, result_.iterations);
+    result_.gap_iterations = std::move(cloud.gap_iterations);
+    if (two_scales_)
+      refine(p, cloud);
+    const Stopwatch watch;
+    findFlags(parameters_, measured_, 0.5 * p.gpf.support_radius, packed_, samples_, cloud);
+    limitMoves(wanted, scale_.noise, scale_.spacing, packed_.frame, cloud, result_);
+    unpack(input_, std::move(packed_), std::move(cloud), samples_, resolveThreads(parameters_.number_of_threads), result_);
+    result_.seconds_filter += watch.elapsed();
+  }
+
+private:
+  FilteredCloud
+  filter(FilterScale filter_scale, const DenoiseParameters& p, const std::vector<std::uint32_t>& seeds, std::vector<IterationStats>& iterations)
+  {
+    makeNormals(input_, p, filter_scale, packed_, progress_, result_);
+    const Stopwatch watch;
+    FilteredCloud cloud = project(p.gpf, filter_scale, seeds, packed_, progress_, iterations);
+    result_.seconds_filter += watch.elapsed();
+    return cloud;
+  }
+
+  /** What one scale for all takes away: detail, then thin parts; at last what a wider ball than planes can have averages better. */
+  void
+  refine(const DenoiseParameters& coarse, FilteredCloud& cloud)
+  {
+    Stopwatch watch;
+    const DenoiseParameters fine = parametersAt(FilterScale::Fine, parameters_, scale_, packed_.frame, result_);
+    const std::vector<std::uint32_t> places = lostDetail({measured_.noise, measured_.spacing, 0.5 * fine.gpf.support_radius,
+                                                          0.5 * coarse.gpf.support_radius, parameters_.number_of_threads},
+                                                         packed_, cloud);
+    result_.seconds_filter += watch.lap();
+    if (!places.empty()) {
+      replaceAt(places, filter(FilterScale::Fine, fine, places, result_.fine_iterations), cloud);
+      watch.lap();
+      steer(fine.steered, packed_, places, cloud, stageOf("fine planes", progress_));
+      result_.seconds_filter += watch.lap();
+    }
+    cloud.fine.assign(packed_.rows.size(), 0);
+    for (const std::uint32_t k : places)
+      cloud.fine[k] = 1;
+    keepThinParts(parameters_, measured_, scale_, packed_,
+                  [this](const DenoiseParameters& finest, const std::vector<std::uint32_t>& at) {
+                    std::vector<IterationStats> iterations;
+                    return filter(FilterScale::Finest, finest, at, iterations);
+                  },
+                  cloud, result_);
+    watch.lap();
+    fitSmoothParts(coarse.quadric, packed_, cloud, stageOf("quadrics", progress_));
+    result_.seconds_filter += watch.lap();
+  }
+
+  const DenoiseInput& input_;
+  const StageProgress& progress_;
+  DenoiseParameters parameters_; ///< lengths in the normalised frame
+  DenoiseResult& result_;
+  CloudScale measured_, scale_; ///< as it is, and with the noise times the strength
+  Packed packed_;
+  std::vector<std::uint32_t> samples_;
+  bool two_scales_ = false;
+};
+
 /** The chain with every point as data. */
 DenoiseResult
 denoiseOnce(const DenoiseInput& input, const DenoiseParameters& wanted, const StageProgress& progress)
 {
-  DenoiseParameters parameters = wanted;
   DenoiseResult result;
-  CloudScale scale;
-  Stopwatch watch;
-  Packed packed = prepare(input, parameters, runsInDouble(parameters.gpf), scale, result);
-  result.seconds_normals = watch.lap();
-  const CloudScale measured = scale;
-  scale.noise *= parameters.strength;
-  const std::vector<std::uint32_t> samples = drawSamples(parameters.gpf, packed);
-  const auto filterAt = [&](FilterScale filter_scale, const DenoiseParameters& p, const std::vector<std::uint32_t>& seeds,
-                            std::vector<IterationStats>& iterations) {
-    makeNormals(input, p, filter_scale, packed, progress, result);
-    const Stopwatch filter_watch;
-    FilteredCloud cloud = project(p.gpf, filter_scale, seeds, packed, progress, iterations);
-    result.seconds_filter += filter_watch.elapsed();
-    return cloud;
-  };
-  const bool two_scales = filtersTwoScales(parameters) && scale.spacing > 0.0;
-  const FilterScale first = two_scales ? FilterScale::Coarse : FilterScale::Single;
-  const DenoiseParameters p = parametersAt(first, parameters, scale, packed.frame, result);
-  refuseExcessiveStages(p, packed, samples.empty() ? packed.rows.size() : samples.size());
-  FilteredCloud cloud = filterAt(first, p, samples, result.iterations);
-  result.gap_iterations = std::move(cloud.gap_iterations);
-  watch.lap();
-  if (two_scales) {
-    const DenoiseParameters fine = parametersAt(FilterScale::Fine, parameters, scale, packed.frame, result);
-    const std::vector<std::uint32_t> places =
-        lostDetail({measured.noise, measured.spacing, 0.5 * fine.gpf.support_radius, 0.5 * p.gpf.support_radius, parameters.number_of_threads},
-                   packed, cloud);
-    result.seconds_filter += watch.lap();
-    if (!places.empty()) {
-      replaceAt(places, filterAt(FilterScale::Fine, fine, places, result.fine_iterations), cloud);
-      watch.lap();
-      steer(fine.steered, packed, places, cloud, stageOf("fine planes", progress));
-      result.seconds_filter += watch.lap();
-    }
-    fitSmoothParts(p.quadric, packed, cloud, stageOf("quadrics", progress));
-    result.seconds_filter += watch.lap();
-    cloud.fine.assign(packed.rows.size(), 0);
-    for (const std::uint32_t k : places)
-      cloud.fine[k] = 1;
-    const auto filter_finest = [&](const DenoiseParameters& finest, const std::vector<std::uint32_t>& at) {
-      std::vector<IterationStats> iterations;
-      return filterAt(FilterScale::Finest, finest, at, iterations);
-    };
-    keepThinParts(parameters, measured, scale, packed, filter_finest, cloud, result);
-    watch.lap();
-  }
-  findFlags(parameters, measured, 0.5 * p.gpf.support_radius, packed, samples, cloud);
-  limitMoves(wanted, scale.noise, scale.spacing, packed.frame, cloud, result);
-  unpack(input, std::move(packed), std::move(cloud), samples, resolveThreads(parameters.number_of_threads), result);
-  result.seconds_filter += watch.lap();
+  Chain(input, wanted, progress, result).run(wanted);
   return result;
 }
 

@@ -10,7 +10,7 @@ filtersTwoScales(const DenoiseParameters& p)
 {
   const bool estimated = p.normals.radius == 0.0 && p.bilateral.radius == 0.0 && p.bilateral.neighbors == 0 && p.gpf.support_radius == 0.0;
   return p.two_scales && estimated && !runsInDouble(p.gpf) && p.gpf.sample_ratio == 1.0 && p.gpf.repulsion_weight == 0.0 &&
-         p.gpf.gap_iterations == 0;
+         p.gpf.gap_iterations == 0 && p.gpf.maximum_iterations > 0;
 }
 
 std::vector<std::uint32_t>

@@ -7,7 +7,7 @@ set(layer_rules
   "^include/pcl_gpf/core/ -> core version|"
   "^src/core/parallel[.]cpp$ -> core version|tbb"
   "^src/core/(kernels/|simd[.]cpp$) -> core|hwy"
-  "^src/core/(operators|analysis)/.*[.]cpp$ -> core version|eigen"
+  "^src/core/(operators|analysis)/ -> core version|eigen"
   "^src/core/ -> core version|"
   "^(include/pcl_gpf|src)/common/ -> common core version|pcl eigen"
   "^(include/pcl_gpf|src)/io/ -> io common core version|pcl eigen"

@@ -125,6 +125,18 @@ TEST(Denoise, shrinksTheErrorAtLeastFivefold)
   EXPECT_GT(improvement(sphere(30000, sigma, 2), sphereDistance), 5.0);
 }
 
+TEST(Denoise, zeroIterationsMoveNothing)
+{
+  const Cloud cloud(cube(6000, 0.01, 3));
+  DenoiseParameters parameters;
+  parameters.gpf.maximum_iterations = 0;
+  const DenoiseResult result = denoise(cloud.input(), parameters);
+  ASSERT_EQ(result.x.size(), cloud.size());
+  const DenoiseInput input = cloud.input();
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    ASSERT_TRUE(result.x[i] == input.x[i] && result.y[i] == input.y[i] && result.z[i] == input.z[i]) << i;
+}
+
 TEST(Denoise, keepsEveryPointInOrderByDefault)
 {
   const Cloud cloud(cube(2000, 0.01, 1));
@@ -132,7 +144,8 @@ TEST(Denoise, keepsEveryPointInOrderByDefault)
   ASSERT_EQ(result.x.size(), cloud.size());
   EXPECT_EQ(result.non_finite_points, 0u);
   EXPECT_EQ(result.estimated_normals, cloud.size());
-  EXPECT_EQ(result.parameters.size(), 10u); // three lengths of each of three scales (edges are thin here), and the limit of moves; no steered fit below 0.75 spacings
+  // Three lengths of each of three scales (edges are thin here), the quadrics' and the limit of moves; no steered fit below 0.75 spacings.
+  EXPECT_EQ(result.parameters.size(), 11u);
   EXPECT_FALSE(result.iterations.empty());
   EXPECT_EQ(result.fine.size(), cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -35,7 +35,7 @@ rulesOf(FilterScale filter_scale)
   }
 }
 
-constexpr LengthRule kSteeredRadius = {2.52, 3.3, true}, kDirectionRadius = {5.2, 7.8}, kQuadricRadius = {5.9, 9.0};
+constexpr LengthRule kSteeredRadius = {2.52, 3.3, true}, kDirectionRadius = {4.6, 6.9}, kQuadricRadius = {5.9, 9.0};
 
 ParameterOrigin
 lengthFromScale(const char* name, const CloudScale& scale, const LengthRule& rule)

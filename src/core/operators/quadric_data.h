@@ -40,7 +40,7 @@ public:
 
   explicit QuadricSums(std::size_t queries);
   const float* of(std::size_t q) const { return sums_.data() + q / kQueries * kQueries * kernels::QuadricMoments::kSums + q % kQueries; }
-  std::size_t row(std::size_t) const { return kQueries; }
+  static constexpr std::size_t row() { return kQueries; } ///< from one sum of a query to the next
   float* task(std::size_t first_query) { return sums_.data() + first_query * kernels::QuadricMoments::kSums; }
 
 private:

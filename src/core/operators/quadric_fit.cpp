@@ -17,7 +17,7 @@ namespace pcl_gpf {
 namespace {
 
 /** Widest ball, in box diagonals: a quarter of the cloud is no neighbourhood. */
-constexpr double kWidest = 0.25;
+constexpr double kWidest = 0.17;
 /** Points of the narrowest ball for each of its fits. */
 constexpr double kPointsPerFit = 40.0;
 constexpr std::size_t kMostShare = 64;
@@ -108,7 +108,7 @@ private:
   {
     FittedQuadric quadric;
     const double least = 0.64 * p_.noise * p_.noise / (radius * radius); // the noise is known to a fifth
-    if (!solveQuadric(sums.of(q), sums.row(q), least, quadric)) {
+    if (!solveQuadric(sums.of(q), sums.row(), least, quadric)) {
       belief_[fit] = 0.0;
       return;
     }

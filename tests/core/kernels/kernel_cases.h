@@ -384,6 +384,62 @@ private:
   static constexpr float kRound = 7.0f, kAcross = 30.0f, kFalloff = 7.5f;
 };
 
+/** Any three vectors serve as axes: the query's normal and its components in other orders. Any positions serve as raised ones: the data's
+ * normals. */
+struct QuadricCase : KernelCase<float> {
+  std::string name() const { return "quadric moments"; }
+  std::size_t channels() const { return kernels::QuadricMoments::kSums; }
+  void
+  run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
+  {
+    kernels::QuadricMoments a;
+    a.radius = radius(in);
+    a.one_by_radius = 1.0f / std::sqrt(a.radius.radius_sq);
+    a.queries = in.queries.vectors();
+    const kernels::Vectors<float> n = in.query_normals.vectors();
+    a.axis_n = n;
+    a.axis_u = {n.y, n.z, n.x};
+    a.axis_v = {n.z, n.x, n.y};
+    a.data = in.data.vectors();
+    a.noisy = a.data_normals = in.data_normals.vectors();
+    a.data_weight = a.spread = in.weight.data();
+    a.within = in.density.data();
+    a.sums = out.channel(0);
+    a.row = static_cast<std::size_t>(out.channel(1) - out.channel(0));
+    set.quadric_moments(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+  }
+  std::vector<Term>
+  terms(const Pair& p) const
+  {
+    constexpr double kScale = 64.0; // powers, and 1 - r^2 squared, multiply rounding
+    const auto& n = p.query_normal;
+    const std::array<double, 3> u = {n[1], n[2], n[0]}, v = {n[2], n[0], n[1]};
+    std::array<double, 3> raised;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      raised[axis] = p.normal[axis] - (p.datum[axis] - p.d[axis]);
+    const double r = std::sqrt(p.radius_sq), x = Pair::dot(p.d, u) / r, y = Pair::dot(p.d, v) / r, h = Pair::dot(raised, n) / r;
+    const double bell = std::pow(1 - p.r_sq / p.radius_sq, 2), w = bell * p.weight, most = kScale * (1 + std::abs(h)) / r;
+    std::vector<Term> sums;
+    const auto add = [&](double value, double scale) { sums.push_back({value, kScale * scale}); };
+    for (int i = 0; i <= 4; ++i)
+      for (int j = 0; i + j <= 4; ++j)
+        add(w * std::pow(x, i) * std::pow(y, j), p.weight);
+    for (const double power : {1.0, x, y, x * x, x * y, y * y})
+      add(w * h * power, p.weight * most);
+    add(w * h * h, p.weight * most * most);
+    const double side = p.cosine() < 0 ? -1 : 1, along_u = side * Pair::dot(p.normal, u), along_v = side * Pair::dot(p.normal, v);
+    for (const double slope : {along_u, along_v})
+      for (const double power : {1.0, x, y})
+        add(w * slope * power, p.weight);
+    add(w * (along_u * along_u + along_v * along_v), p.weight);
+    add(w * std::abs(p.cosine()), p.weight);
+    add(bell, 1);
+    add(bell * p.density, p.density);
+    add(w * p.weight, p.weight * p.weight);
+    return sums;
+  }
+};
+
 /** The sums of a RIMLS fit; the radius is the datum's. */
 struct ImplicitCase {
   bool robust = false;
@@ -485,6 +541,8 @@ forEveryCase(const Visit& visit)
         visit(FieldCase{{per_query}, weighted});
         visit(SteeredCase{{per_query}, weighted});
       }
+      if (!per_query)
+        visit(QuadricCase{});
       visit(ImplicitCase{per_query}); // plain and robust
     }
   }

@@ -16,7 +16,7 @@ struct SteeredFitParameters {
   double direction_radius = 0.0; ///< of the balls in which normals tell how the surface bends, >= 0; 0 = estimated likewise
   double longest_share = 4.0;    ///< half length of a neighbourhood where nothing bends, as a multiple of `radius`, >= 1
   double bending_weight = 9.0;   ///< how fast neighbourhoods shrink across a bend, >= 0; 0 = balls
-  unsigned passes = 3;           ///< each from the result of the one before; 0 = no fit
+  unsigned passes = 4;           ///< each from the result of the one before; 0 = no fit
   unsigned merge_above = 200;    ///< means stand for the points of denser neighbourhoods, which all passes but the last move; 0 = never
 
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
