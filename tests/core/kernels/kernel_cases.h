@@ -3,7 +3,9 @@
 
 #include "kernel_input.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -404,9 +406,12 @@ struct QuadricCase : KernelCase<float> {
     a.noisy = a.data_normals = in.data_normals.vectors();
     a.data_weight = a.spread = in.weight.data();
     a.within = in.density.data();
-    a.sums = out.channel(0);
-    a.row = static_cast<std::size_t>(out.channel(1) - out.channel(0));
+    a.row = blockCount(in.query_count) * kQueryBlock;
+    AlignedArray<float> sums(channels() * a.row);
+    a.sums = sums.data();
     set.quadric_moments(candidatesOf(in.near), a, 0, blockCount(in.query_count));
+    for (std::size_t c = 0; c < channels(); ++c)
+      std::copy_n(sums.data() + c * a.row, in.query_count, out.channel(c));
   }
   std::vector<Term>
   terms(const Pair& p) const
