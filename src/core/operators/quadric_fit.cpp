@@ -16,7 +16,7 @@ namespace pcl_gpf {
 
 namespace {
 
-/** Widest ball, in box diagonals: a quarter of the cloud is no neighbourhood. */
+/** Widest ball, in box diagonals: beyond, the sixth order draws a sphere inwards. */
 constexpr double kWidest = 0.17;
 /** Points of the narrowest ball for each of its fits. */
 constexpr double kPointsPerFit = 40.0;

@@ -13,7 +13,7 @@ struct QuadricFitParameters {
   double noise = 0.0;        ///< standard deviation along the normal at the quietest places, >= 0, the unit of the radius
   double spacing = 0.0;      ///< of the points, > 0, the unit of the radius
   unsigned levels = 5;       ///< balls of radius 1, sqrt(2), 2, ... times `radius`; 0 = no fit
-  double misfit = 1.2;      ///< variance of mean heights about the quadric, in those that noise explains, up to which it is believed, > 0
+  double misfit = 1.2;       ///< variance of mean heights about the quadric, in those that noise explains, up to which it is believed, > 0
   unsigned merge_above = 192; ///< a ball that holds more points is represented by between half as many and as many means, >= 16
 
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
@@ -39,7 +39,7 @@ validate(const QuadricFitParameters& parameters);
  * \param[in,out] positions, normals the filtered cloud; a normal keeps its side
  * \param[in] progress called before each level and at the end; return false to cancel
  * \throws InvalidParameter (also a radius of 0, unless `levels` is 0), ExcessiveWork, Cancelled
- * Cost: that of a few rounds of the bilateral normal filter at most; one fit serves some consecutive points. Balls wider than a quarter
+ * Cost: that of a few rounds of the bilateral normal filter at most; one fit serves some consecutive points. Balls wider than 0.17
  * of the normalised frame are left out, and those that hold fewer points than there are means to fit to. Thread safety: free function
  * without shared state.
  */

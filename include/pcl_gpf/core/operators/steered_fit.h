@@ -44,7 +44,7 @@ validate(const SteeredFitParameters& parameters);
  * \param[in] progress called before each pass and at the end; return false to cancel
  * \throws InvalidParameter (also a radius of 0, unless `passes` is 0, and places beyond the points), ExcessiveWork, Cancelled; passes that
  * were done by then stay
- * Cost: three passes take about a fifth of the time of the whole chain where every point is refined (100,000 points, noise of 4 spacings).
+ * Cost: four passes take about a quarter of the time of the whole chain where every point is refined (100,000 points, noise of 4 spacings).
  * Thread safety: free function without shared state.
  */
 PCL_GPF_CORE_EXPORT void
