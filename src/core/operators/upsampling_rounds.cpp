@@ -18,10 +18,10 @@ constexpr std::size_t kCopiesPerTask = 65536;
 /** Clearances below this, in the frame whose box diagonal is 1, are rounding. */
 constexpr float kLeastClearance = 1e-6f;
 /** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
-constexpr float kReachInClearances = 3.6f;
+constexpr float kReachInClearances = 3.4f;
 /** Share of the points whose gaps, those of least priority, take no part in a round: so the widest are filled first. A round fills about
  * 0.4 gaps a point, so it is the last when not more than kLastRound a point are to be filled; of that one the best are taken. */
-constexpr double kShareLeft = 0.15, kShareLeftOfLast = 0.1, kLastRound = 0.5;
+constexpr double kShareLeft = 0.17, kShareLeftOfLast = 0.13, kLastRound = 0.5;
 /** Points by which the priorities of all are judged, at least, when there are more. */
 constexpr std::size_t kPriorityProbes = 8192;
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
