@@ -4,6 +4,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "sorted_points.h"
+#include "spread_bits.h"
 
 #include <algorithm>
 #include <array>
@@ -66,17 +67,6 @@ followCurve(Cells& cells)
     cells.y[k] ^= flip[k];
     cells.z[k] ^= flip[k];
   }
-}
-
-/** Two zero bits between neighbouring bits. */
-std::uint64_t
-spreadBits(std::uint64_t v)
-{
-  v = (v | v << 32) & 0x1f00000000ffffull;
-  v = (v | v << 16) & 0x1f0000ff0000ffull;
-  v = (v | v << 8) & 0x100f00f00f00f00full;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ull;
-  return (v | v << 2) & 0x1249249249249249ull;
 }
 
 constexpr unsigned kDigitBits = 11;

@@ -5,6 +5,18 @@
 
 namespace pcl_gpf {
 
+namespace {
+
+void
+setDisplacement(PointsView points, const SoaBuffer& positions, std::size_t k, FilteredCloud& cloud)
+{
+  cloud.displacements.x[k] = positions.x[k] - points.x[k];
+  cloud.displacements.y[k] = positions.y[k] - points.y[k];
+  cloud.displacements.z[k] = positions.z[k] - points.z[k];
+}
+
+} // namespace
+
 bool
 filtersTwoScales(const DenoiseParameters& p)
 {
@@ -33,11 +45,8 @@ steer(const SteeredFitParameters& parameters, const Packed& packed, const std::v
   const PointsView points = packed.index->sorted();
   SoaBuffer positions = movedPoints(points, {}, cloud.displacements);
   fitSteeredPlanes(parameters, points, places, positions.view(), cloud.normals.view(), progress);
-  for (const std::uint32_t k : places) {
-    cloud.displacements.x[k] = positions.x[k] - points.x[k];
-    cloud.displacements.y[k] = positions.y[k] - points.y[k];
-    cloud.displacements.z[k] = positions.z[k] - points.z[k];
-  }
+  for (const std::uint32_t k : places)
+    setDisplacement(points, positions, k, cloud);
 }
 
 void
@@ -48,11 +57,8 @@ fitSmoothParts(const QuadricFitParameters& parameters, const Packed& packed, Fil
   const PointsView points = packed.index->sorted();
   SoaBuffer positions = movedPoints(points, {}, cloud.displacements);
   fitQuadrics(parameters, points, positions.view(), cloud.normals.view(), progress);
-  for (std::size_t k = 0; k < points.size; ++k) {
-    cloud.displacements.x[k] = positions.x[k] - points.x[k];
-    cloud.displacements.y[k] = positions.y[k] - points.y[k];
-    cloud.displacements.z[k] = positions.z[k] - points.z[k];
-  }
+  for (std::size_t k = 0; k < points.size; ++k)
+    setDisplacement(points, positions, k, cloud);
 }
 
 void

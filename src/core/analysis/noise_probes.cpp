@@ -28,6 +28,7 @@ constexpr double kQuantile = 0.1;
 constexpr double kLuck = 0.9;
 /** Deviation of a normal distribution cut off at kPatchTrim times its own, against the whole. */
 constexpr double kTrimmedDeviation = 0.924;
+
 double
 lengthSq(const Offset& p)
 {
@@ -43,6 +44,20 @@ keepEvery(std::size_t stride, std::vector<Offset>& points)
   for (std::size_t i = 0; i * stride < points.size(); ++i)
     points[i] = points[i * stride];
   points.resize((points.size() + stride - 1) / stride);
+}
+
+/** What `measure` finds at every step-th centre, which it may move. */
+template <class Found, class Scratch, class Centers, class Measure>
+std::vector<Found>
+ofEach(Centers& centers, std::size_t step, std::size_t threads, const Measure& measure)
+{
+  std::vector<Found> found((centers.size() + step - 1) / step);
+  parallelBlocks(found.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
+    for (std::size_t k = begin; k < end; ++k)
+      found[k] = measure(centers[k * step], scratch);
+  });
+  return found;
 }
 
 } // namespace
@@ -87,25 +102,15 @@ NoiseProbes::evenCenters() const
 std::vector<NoiseReading>
 NoiseProbes::readEach(Centers& centers, double guess, std::size_t step) const
 {
-  std::vector<NoiseReading> patches((centers.size() + step - 1) / step);
-  parallelBlocks(patches.size(), 8, threads_, [&](std::size_t begin, std::size_t end) {
-    Scratch scratch;
-    for (std::size_t k = begin; k < end; ++k)
-      patches[k] = measureAt(centers[k * step], guess, scratch);
-  });
-  return patches;
+  return ofEach<NoiseReading, Scratch>(
+      centers, step, threads_, [&](Center& center, Scratch& scratch) { return measureAt(center, guess, scratch); });
 }
 
 std::vector<NoiseLevel>
 NoiseProbes::settleEach(const Centers& centers, double guess, std::size_t step) const
 {
-  std::vector<NoiseLevel> levels((centers.size() + step - 1) / step);
-  parallelBlocks(levels.size(), 8, threads_, [&](std::size_t begin, std::size_t end) {
-    Scratch scratch;
-    for (std::size_t k = begin; k < end; ++k)
-      levels[k] = settleAt(centers[k * step], guess, scratch);
-  });
-  return levels;
+  return ofEach<NoiseLevel, Scratch>(
+      centers, step, threads_, [&](const Center& center, Scratch& scratch) { return settleAt(center, guess, scratch); });
 }
 
 NoiseLevel
@@ -129,13 +134,8 @@ NoiseProbes::settleAt(Center center, double guess, Scratch& scratch) const
 std::vector<PatchHeights>
 NoiseProbes::heightsOfEach(const Centers& centers, double guess, std::size_t step) const
 {
-  std::vector<PatchHeights> found((centers.size() + step - 1) / step);
-  parallelBlocks(found.size(), 8, threads_, [&](std::size_t begin, std::size_t end) {
-    Scratch scratch;
-    for (std::size_t k = begin; k < end; ++k)
-      found[k] = heightsAt(centers[k * step], guess, scratch);
-  });
-  return found;
+  return ofEach<PatchHeights, Scratch>(
+      centers, step, threads_, [&](const Center& center, Scratch& scratch) { return heightsAt(center, guess, scratch); });
 }
 
 PatchHeights

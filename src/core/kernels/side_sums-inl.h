@@ -7,8 +7,8 @@
 #define PCL_GPF_SIDE_SUMS_INL_H_
 #endif
 
-#include "exponential-inl.h"
 #include "packed_points-inl.h"
+#include "side_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_gpf {
@@ -49,12 +49,6 @@ public:
 
 private:
   static constexpr std::size_t kTogether = 8;
-
-  /** Sums of one side, a lane a stretch of memory each. */
-  struct Lanes {
-    HWY_ALIGN float weight[kQueryBlock], offset[kQueryBlock], x[kQueryBlock], y[kQueryBlock], z[kQueryBlock], largest[kQueryBlock];
-    HWY_ALIGN std::uint32_t nearest[kQueryBlock];
-  };
 
   struct Scratch {
     PointRows near;   ///< in reach of a few queries
@@ -117,29 +111,15 @@ private:
     Lanes3<D> directions[2];
     for (std::size_t k = 0; k < 2; ++k)
       directions[k] = {hn::Set(d, a_.directions[k].x[q]), hn::Set(d, a_.directions[k].y[q]), hn::Set(d, a_.directions[k].z[q])};
-    Lanes sides[2];
+    SideLanes sides[2];
     for (std::size_t part = 0; part < kQueryBlock; part += lanes_)
       sumPart(directions, part, count, sides);
-    for (std::size_t k = 0; k < 2; ++k) {
-      const std::size_t out = q - a_.first_output;
-      a_.weight[k][out] = total(sides[k].weight);
-      a_.offset[k][out] = total(sides[k].offset);
-      a_.normal[k].x[out] = total(sides[k].x);
-      a_.normal[k].y[out] = total(sides[k].y);
-      a_.normal[k].z[out] = total(sides[k].z);
-      a_.nearest[k][out] = numberOfLargest(sides[k]);
-    }
+    for (std::size_t k = 0; k < 2; ++k)
+      sides[k].write(a_, k, q - a_.first_output);
   }
 
-  /** One side in registers. */
-  struct Side {
-    V weight, offset, largest;
-    Lanes3<D> normal;
-    hn::Vec<Numbers> nearest;
-  };
-
   HWY_INLINE void
-  sumPart(const Lanes3<D> (&directions)[2], std::size_t part, std::size_t count, Lanes (&sums)[2]) const
+  sumPart(const Lanes3<D> (&directions)[2], std::size_t part, std::size_t count, SideLanes (&sums)[2]) const
   {
     const D d;
     const Numbers du;
@@ -148,75 +128,17 @@ private:
     const std::uint32_t* const numbers = scratch_.inside.number.data();
     const Vectors<float> normals = normalsOf(scratch_.inside);
     const V scale = hn::Set(d, -a_.falloff / a_.radius_sq);
-    Side first = {hn::Zero(d), hn::Zero(d), hn::Zero(d), zero3(d), hn::Zero(du)}, second = first;
+    SideRegisters<kSignInvariant> first, second;
     for (std::size_t j = part; j < count; j += kQueryBlock) {
       const auto inside = hn::FirstN(d, count - j);
       const V near = hn::Mul(hn::LoadU(d, distance_sq + j), scale), above = hn::LoadU(d, height + j);
       const Lanes3<D> normal = loadQueries(d, normals, j);
       const auto number = hn::LoadU(du, numbers + j);
-      add(directions[0], normal, number, above, near, inside, first);
-      add(directions[1], normal, number, above, near, inside, second);
+      first.add(directions[0], normal, number, above, near, inside, a_.angle_falloff);
+      second.add(directions[1], normal, number, above, near, inside, a_.angle_falloff);
     }
-    keep(first, part, sums[0]);
-    keep(second, part, sums[1]);
-  }
-
-  HWY_INLINE void
-  add(const Lanes3<D>& direction, const Lanes3<D>& normal, hn::Vec<Numbers> number, V above, V near, hn::Mask<D> inside, Side& side) const
-  {
-    const D d;
-    const V cosine = dot<D>(direction, normal);
-    const V turn = hn::Mul(hn::Sub(hn::Set(d, 1.0f), kSignInvariant ? hn::Abs(cosine) : cosine), hn::Set(d, a_.angle_falloff));
-    const V weight = hn::IfThenElseZero(inside, expNonPositive(d, hn::Sub(near, hn::Mul(turn, turn))));
-    const V signed_weight = kSignInvariant ? hn::CopySign(weight, cosine) : weight;
-    side.weight = hn::Add(side.weight, weight);
-    side.offset = mulAdd(signed_weight, above, side.offset);
-    addScaled<D>(side.normal, signed_weight, normal);
-    side.nearest = hn::IfThenElse(hn::RebindMask(Numbers(), hn::Gt(weight, side.largest)), number, side.nearest);
-    side.largest = hn::Max(weight, side.largest);
-  }
-
-  static HWY_INLINE void
-  keep(const Side& side, std::size_t part, Lanes& to)
-  {
-    const D d;
-    hn::StoreU(side.weight, d, to.weight + part);
-    hn::StoreU(side.offset, d, to.offset + part);
-    hn::StoreU(side.normal.x, d, to.x + part);
-    hn::StoreU(side.normal.y, d, to.y + part);
-    hn::StoreU(side.normal.z, d, to.z + part);
-    hn::StoreU(side.largest, d, to.largest + part);
-    hn::StoreU(side.nearest, Numbers(), to.nearest + part);
-  }
-
-  /** In one order for every width of vectors. */
-  static HWY_INLINE float
-  total(const float* lanes)
-  {
-    const hn::CappedTag<float, 4> d;
-    HWY_ALIGN float quarters[4];
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d))
-      hn::StoreU(hn::Add(hn::Add(hn::LoadU(d, lanes + k), hn::LoadU(d, lanes + k + 8)),
-                         hn::Add(hn::LoadU(d, lanes + k + 4), hn::LoadU(d, lanes + k + 12))), d, quarters + k);
-    return (quarters[0] + quarters[2]) + (quarters[1] + quarters[3]);
-  }
-
-  /** The first of the data that weigh most. */
-  HWY_INLINE std::uint32_t
-  numberOfLargest(const Lanes& side) const
-  {
-    const D d;
-    const Numbers du;
-    V largest = hn::LoadU(d, side.largest);
-    for (std::size_t part = lanes_; part < kQueryBlock; part += lanes_)
-      largest = hn::Max(largest, hn::LoadU(d, side.largest + part));
-    largest = hn::MaxOfLanes(d, largest);
-    auto first = hn::Set(du, ~std::uint32_t{0});
-    for (std::size_t part = 0; part < kQueryBlock; part += lanes_) {
-      const auto lesser = hn::RebindMask(du, hn::Lt(hn::LoadU(d, side.largest + part), largest));
-      first = hn::Min(first, hn::IfThenElse(lesser, first, hn::LoadU(du, side.nearest + part)));
-    }
-    return hn::GetLane(hn::MinOfLanes(du, first));
+    sums[0].keep(first, part);
+    sums[1].keep(second, part);
   }
 
   static HWY_INLINE Vectors<float>

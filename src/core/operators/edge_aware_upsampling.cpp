@@ -22,6 +22,9 @@ constexpr double kMostFactor = 1000.0;
 constexpr double kRadiusInSpacings = 3.0;
 /** Share of the requested spacing down to which clearances are filled, so that estimateSpacing() of the result is the request. */
 constexpr double kClearanceOfSpacing = 0.775;
+/** What float cannot hold in the frame whose box diagonal is 1; less where one point that strayed far makes that frame wide beside the
+ * spacing of the others, which lie about its origin. */
+constexpr double kRounding = 1e-6, kRoundingOfSpacing = 1e-3;
 
 /** In the order of `order`, or as they are when that is empty. */
 SoaBuffer
@@ -54,6 +57,7 @@ makePlan(const EdgeAwareUpsamplingParameters& p, const PointIndex& points, doubl
                           " (both in the frame of the points); at most 1000 times as many are made");
     plan.least_clearance = kClearanceOfSpacing * p.spacing;
   }
+  plan.rounding = std::min(kRounding, kRoundingOfSpacing * spacing);
   plan.angle = p.angle * 3.14159265358979323846 / 180.0;
   plan.edge_sensitivity = p.edge_sensitivity;
   plan.sign_invariant = p.sign_invariant;

@@ -4,6 +4,7 @@
 #include <pcl_gpf/core/parallel.h>
 
 #include "../neighborhoods.h"
+#include "eigen_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,28 +35,22 @@ cutOutliers(double noise, std::size_t count, AlignedArray<float>& heights)
 
 QueryFrames::QueryFrames(const QuadricData& data, const std::vector<std::uint32_t>& places) : QueryFrames(places.size())
 {
-  const auto put = [](const Eigen::Vector3d& from, SortedVectors<float>& to, std::size_t q) {
-    to.x[q] = static_cast<float>(from[0]);
-    to.y[q] = static_cast<float>(from[1]);
-    to.z[q] = static_cast<float>(from[2]);
-  };
   for (std::size_t q = 0; q < places.size(); ++q) {
     const Eigen::Vector3d normal = data.normal(places[q]);
     Eigen::Index least = 0;
     normal.cwiseAbs().minCoeff(&least);
     const Eigen::Vector3d axis = normal.cross(Eigen::Vector3d::Unit(least)).normalized();
-    put(data.position(places[q]), origin, q);
-    put(axis, u, q);
-    put(normal.cross(axis), v, q);
-    put(normal, n, q);
+    setVector(data.position(places[q]), origin, q);
+    setVector(axis, u, q);
+    setVector(normal.cross(axis), v, q);
+    setVector(normal, n, q);
   }
 }
 
 QueryFrame
 QueryFrames::of(std::size_t q) const
 {
-  const auto take = [q](const SortedVectors<float>& from) { return Eigen::Vector3d(from.x[q], from.y[q], from.z[q]); };
-  return {take(origin), take(u), take(v), take(n)};
+  return {vectorAt(origin, q), vectorAt(u, q), vectorAt(v, q), vectorAt(n, q)};
 }
 
 QuadricSums::QuadricSums(std::size_t queries)

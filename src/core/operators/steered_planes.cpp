@@ -3,6 +3,7 @@
 
 #include <pcl_gpf/core/parallel.h>
 
+#include "eigen_vectors.h"
 #include "steered_ellipsoids.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ fitPlane(const Sums& s, std::size_t k, const Eigen::Vector3d& side, Eigen::Vecto
   if (!(s.weight[k] >= kFewestData))
     return false;
   const double weight = s.weight[k];
-  const Eigen::Vector3d mean = Eigen::Vector3d(s.mean.x[k], s.mean.y[k], s.mean.z[k]) / weight;
+  const Eigen::Vector3d mean = vectorAt(s.mean, k) / weight;
   Eigen::Matrix3d scatter;
   scatter << s.diagonal.x[k], s.mixed.z[k], s.mixed.y[k], //
       s.mixed.z[k], s.diagonal.y[k], s.mixed.x[k],        //
@@ -53,16 +54,8 @@ fitPlane(const Sums& s, std::size_t k, const Eigen::Vector3d& side, Eigen::Vecto
   normal = solver.eigenvectors().col(0).normalized();
   if (normal.dot(side) < 0.0)
     normal = -normal;
-  move = normal.dot(Eigen::Vector3d(s.shift.x[k], s.shift.y[k], s.shift.z[k])) / weight * normal;
+  move = normal.dot(vectorAt(s.shift, k)) / weight * normal;
   return true;
-}
-
-void
-put(const Eigen::Vector3d& vector, std::size_t q, SortedVectors<float>& to)
-{
-  to.x[q] = static_cast<float>(vector[0]);
-  to.y[q] = static_cast<float>(vector[1]);
-  to.z[q] = static_cast<float>(vector[2]);
 }
 
 /** Sums over some blocks of queries and the planes of these. */
@@ -78,13 +71,12 @@ fitBlocks(const kernels::Candidates& candidates, kernels::SteeredMoments a, cons
   a.scatter_diagonal = sums.diagonal.vectors();
   a.scatter_mixed = sums.mixed.vectors();
   kernels::active().steered_moments(candidates, a, begin, end);
-  const SortedVectors<float>& n = queries.normals;
   for (std::size_t q = a.first_output; q < std::min(queries.data.size(), end * kQueryBlock); ++q) {
     Eigen::Vector3d move, normal;
-    if (!fitPlane(sums, q - a.first_output, {n.x[q], n.y[q], n.z[q]}, move, normal))
+    if (!fitPlane(sums, q - a.first_output, vectorAt(queries.normals, q), move, normal))
       continue;
-    put(move, q, moves.moves);
-    put(normal, q, moves.normals);
+    setVector(move, moves.moves, q);
+    setVector(normal, moves.normals, q);
   }
 }
 

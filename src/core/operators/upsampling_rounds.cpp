@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 1024;
 constexpr std::size_t kCopiesPerTask = 65536;
-/** Clearances below this, in the frame whose box diagonal is 1, are rounding. */
-constexpr float kLeastClearance = 1e-6f;
 /** Partners are sought within this many times the square root of the least priority of a round: a gap's own width is twice it. */
 constexpr float kReachInClearances = 3.4f;
 /** Share of the points whose gaps, those of least priority, take no part in a round: so the widest are filled first. A round fills about
@@ -42,10 +40,10 @@ UpsamplingRounds::UpsamplingRounds(const UpsamplingPlan& plan, const PointIndex&
 , input_size_(points.size())
 , projection_(points, unit_normals, plan.radius, plan.angle, plan.sign_invariant)
 , search_(plan.edge_sensitivity, plan.sign_invariant)
-, cloud_(points, unit_normals, placesWithoutCopies(points.sorted(), unit_normals, kLeastClearance, plan.sign_invariant), plan.threads)
+, cloud_(points, unit_normals, placesWithoutCopies(points.sorted(), unit_normals, static_cast<float>(plan.rounding), plan.sign_invariant), plan.threads)
 , reach_(static_cast<float>(plan.radius))
 {
-  const float least = std::max(kLeastClearance, static_cast<float>(plan.least_clearance));
+  const float least = static_cast<float>(std::max(plan.rounding, plan.least_clearance));
   least_clearance_sq_ = least * least;
   for (Gap& gap : cloud_.gaps())
     gap.clearance_sq = kUnknown; // sought as far as allowed

@@ -19,6 +19,7 @@ struct UpsamplingPlan {
   std::size_t target = 0;     ///< points in all
   double radius = 0;          ///< R
   double least_clearance = 0; ///< gaps below are left; 0 = only the target counts
+  double rounding = 0;        ///< clearances below are none
   double angle = 0;           ///< radians
   double edge_sensitivity = 0;
   bool sign_invariant = true;

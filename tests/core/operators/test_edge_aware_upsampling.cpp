@@ -428,6 +428,20 @@ TEST(EdgeAwareUpsampling, PilesWithoutGapsEndBeforeTheTarget)
   EXPECT_EQ(result.parents.size(), 0u);
 }
 
+/** One point that strayed a million extents away makes the frame so wide that the others lie about its origin. */
+TEST(EdgeAwareUpsampling, AStrayPointDoesNotCloseTheGapsOfTheOthers)
+{
+  Shape shape = plane(2000, 0, 5);
+  for (Vector3& p : shape.points)
+    for (double& coordinate : p)
+      coordinate *= 1e-6;
+  shape.points.push_back({1.0, 0.0, 0.0});
+  shape.normals.push_back(shape.normals.front());
+  const EdgeAwareUpsamplingResult result = upsample(toLocalCloud(shape), times(2.0));
+  EXPECT_TRUE(result.target_reached);
+  EXPECT_EQ(result.parents.size(), 2001u);
+}
+
 TEST(EdgeAwareUpsampling, CopiesOfOnePointAddNoGaps)
 {
   Shape pile = plane(1000);
