@@ -128,11 +128,11 @@ QuadricData::averageScatter(double radius)
 }
 
 QuadricSums
-QuadricData::sums(const QueryFrames& queries, double radius, std::size_t threads) const
+QuadricData::sums(const QueryFrames& queries, double radius) const
 {
   QuadricSums sums(queries.size());
   const PointsView places = {queries.origin.x.data(), queries.origin.y.data(), queries.origin.z.data(), queries.size()};
-  const Neighborhoods near = findNeighborhoods(means_.tree, places, radius, threads);
+  const Neighborhoods near = findNeighborhoods(means_.tree, places, radius, threads_);
   const kernels::Candidates candidates = candidatesOf(near);
   kernels::QuadricMoments all;
   all.queries = queries.origin.vectors();
@@ -148,7 +148,7 @@ QuadricData::sums(const QueryFrames& queries, double radius, std::size_t threads
   all.radius.radius_sq = static_cast<float>(radius * radius);
   all.one_by_radius = static_cast<float>(1.0 / radius);
   all.row = QuadricSums::kQueries;
-  parallelBlocks(blockCount(queries.size()), kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
+  parallelBlocks(blockCount(queries.size()), kBlocksPerTask, threads_, [&](std::size_t begin, std::size_t end) {
     kernels::QuadricMoments a = all;
     a.first_output = begin * kQueryBlock;
     a.sums = sums.task(a.first_output);

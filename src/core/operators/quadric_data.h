@@ -62,7 +62,7 @@ public:
 
   /** \brief Sums over those means. */
   QuadricSums
-  sums(const QueryFrames& queries, double radius, std::size_t threads) const;
+  sums(const QueryFrames& queries, double radius) const;
 
 private:
   void averageHeights();

@@ -72,7 +72,7 @@ public:
     if (probes.empty() || !(radius <= kWidest) || !data_.average(radius))
       return false;
     frames_ = QueryFrames(data_, placesOf(probes));
-    const QuadricSums sums = data_.sums(frames_, radius, threads_);
+    const QuadricSums sums = data_.sums(frames_, radius);
     parallelBlocks(probes.size(), kFitsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q)
         useFit(sums, q, probes[q], radius, level == 0 ? kFirstShare : 1.0);

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_gpf {
@@ -115,13 +116,7 @@ seedsOnSurface(const RimlsSurface& surface, double cell_size, const ProgressCall
     if (states[i] != RimlsState::Outside && farthest < kFarthestCell * cell_size)
       kept.push_back(i);
   }
-  SoaBuffer result(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    result.x[i] = seeds.x[kept[i]];
-    result.y[i] = seeds.y[kept[i]];
-    result.z[i] = seeds.z[kept[i]];
-  }
-  return result;
+  return elementsOf(std::as_const(seeds).view(), kept);
 }
 
 /** \return mean movement */
