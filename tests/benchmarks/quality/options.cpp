@@ -72,6 +72,7 @@ parseOptions(const std::vector<std::string>& arguments)
 {
   Options o;
   const std::map<std::string, std::function<void()>> flags = {{"--targets", [&] { o.targets = true; }},
+                                                              {"--against-peers", [&] { o.against_peers = true; }},
                                                               {"--noise-estimates", [&] { o.noise_estimates = true; }},
                                                               {"--help", [&] { o.help = true; }}};
   const std::map<std::string, std::function<void(const std::string&)>> values = {
@@ -128,6 +129,8 @@ usage()
                      "               [--cloud-dir DIR: filtered clouds as PLY, with their distances to the surface]\n"
                      "               [--reuse FILE: other filters are not run; their records come from this CSV file, "
                      "where it has them]\n"
+                     "               [--against-peers: ends with a verdict for each cloud, the first method \"ours...\" against "
+                     "the best that ends in -best]\n"
                      "       quality --targets [--seed N] [--threads N] [--csv FILE]\n"
                      "       quality --noise-estimates [--models ...] [--noises ...] [--kinds ...] [--sizes ...] "
                      "[--outliers ...] [--seed N]: estimate / truth\n"

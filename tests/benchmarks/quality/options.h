@@ -25,6 +25,7 @@ struct Options {
   std::string svg_dir; ///< folder; empty = none
   std::string cloud_dir; ///< folder for the filtered clouds; empty = none
   bool targets = false;
+  bool against_peers = false; ///< judge the means by those of the tuned peers
   bool noise_estimates = false;
   bool help = false;
 };

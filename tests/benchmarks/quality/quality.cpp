@@ -3,6 +3,7 @@
 #include "experiment.h"
 #include "noise_estimates.h"
 #include "options.h"
+#include "peer_comparison.h"
 #include "report.h"
 #include "targets.h"
 
@@ -83,7 +84,13 @@ run(const Options& options)
   const std::vector<Record> records = runExperiment(options, report);
   if (!options.svg_dir.empty())
     writeCharts(options.svg_dir, records);
-  return 0;
+  if (!options.against_peers)
+    return 0;
+  const std::vector<PeerComparison> comparisons = compareWithPeers(records);
+  if (comparisons.empty())
+    throw std::invalid_argument("--against-peers: no cloud has a method \"ours...\" and a tuned peer (\"...-best\")");
+  std::printf("\n%s", peerTable(comparisons).c_str());
+  return std::all_of(comparisons.begin(), comparisons.end(), [](const PeerComparison& c) { return c.holds(); }) ? 0 : 1;
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "charts.h"
 #include "options.h"
 #include "parameter_changes.h"
+#include "peer_comparison.h"
 #include "report.h"
 #include "result_cloud.h"
 #include "targets.h"
@@ -72,6 +73,25 @@ TEST(QualityReport, CsvIsReadAsItWasWritten)
   std::ofstream(path) << "x,y\n1,2\n";
   EXPECT_THROW(readCsv(path), std::runtime_error);
   std::filesystem::remove(path);
+}
+
+TEST(QualityReport, ComparesWithTheBestTunedPeerOfEachCloud)
+{
+  const std::vector<Record> records = {record("cube", 1, "input", 8),         record("cube", 1, "ours", 3),
+                                       record("cube", 1, "mls-best", 2),      record("cube", 1, "wlop-best", 4),
+                                       record("cube", 1, "mls", 1),           record("cube", 0.5, "ours", 1),
+                                       record("cube", 0.5, "jet-best", 1),    record("cube", 0.5, "ours:one-scale", 2),
+                                       record("torus", 0.5, "jet-best", 0.1), record("cap", 0.5, "ours", 9)};
+  const std::vector<PeerComparison> compared = compareWithPeers(records);
+  ASSERT_EQ(compared.size(), 2u); // nothing to compare on torus and cap
+  EXPECT_EQ(compared[0].peer, &records[2]);
+  EXPECT_FALSE(compared[0].holds());
+  EXPECT_EQ(compared[1].ours, &records[5]);
+  EXPECT_EQ(compared[1].peer, &records[6]);
+  EXPECT_TRUE(compared[1].holds()); // as good is not worse
+  const std::string table = peerTable(compared);
+  EXPECT_EQ(countOf(table, "WORSE than mls-best"), 1u) << table;
+  EXPECT_EQ(countOf(table, "1 of 2 clouds"), 1u) << table;
 }
 
 TEST(QualityReport, TableLinesAlignWithTheirHeading)
