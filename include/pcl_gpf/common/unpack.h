@@ -7,6 +7,7 @@
 
 #include <pcl/point_cloud.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -24,11 +25,14 @@ struct FilteredPoints {
 
 namespace detail {
 
-/** \brief A coordinate plus its displacement; one that nothing moved keeps its last bit. */
+/** \brief A coordinate plus its displacement, finite; one that nothing moved keeps its last bit. */
 inline float
 moved(float seed, float displacement, double scale)
 {
-  return static_cast<float>(static_cast<double>(seed) + static_cast<double>(displacement) * scale);
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  if (displacement == 0.0f) // adding 0 would turn -0 into 0
+    return seed;
+  return static_cast<float>(std::clamp(static_cast<double>(seed) + static_cast<double>(displacement) * scale, -kLargest, kLargest));
 }
 
 template <typename PointT> void
