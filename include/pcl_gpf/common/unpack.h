@@ -25,14 +25,20 @@ struct FilteredPoints {
 
 namespace detail {
 
+/** \brief A finite coordinate as the nearest finite float. */
+inline float
+finiteFloat(double coordinate)
+{
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(coordinate, -kLargest, kLargest));
+}
+
 /** \brief A coordinate plus its displacement, finite; one that nothing moved keeps its last bit. */
 inline float
 moved(float seed, float displacement, double scale)
 {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  if (displacement == 0.0f) // adding 0 would turn -0 into 0
-    return seed;
-  return static_cast<float>(std::clamp(static_cast<double>(seed) + static_cast<double>(displacement) * scale, -kLargest, kLargest));
+  return displacement == 0.0f ? seed // adding 0 would turn -0 into 0
+                              : finiteFloat(static_cast<double>(seed) + static_cast<double>(displacement) * scale);
 }
 
 template <typename PointT> void
