@@ -92,6 +92,7 @@ applyPositions(LoadedCloud& cloud, const DenoiseResult& result, Console& console
   const bool all = result.sample_indices.size() == cloud.finite;
   if (!all)
     cloud.file = cloud.file.select(result.sample_indices);
+  widenCoordinates(cloud.file, result.x, result.y, result.z);
   std::array<int, 3> fields{};
   std::transform(kAxes.begin(), kAxes.end(), fields.begin(),
                  [&cloud](const std::string& axis) { return cloud.file.findField(axis); });

@@ -15,6 +15,7 @@ consolidatedFile(const CloudFile& source, const ConsolidatedCloud& cloud)
   const std::vector<std::string> axes{"x", "y", "z"}, normals{"normal_x", "normal_y", "normal_z"};
   CloudFile file = source.select(cloud.source_rows);
   promoteIntegerFields(file, axes, FieldType::Float64);
+  widenCoordinates(file, cloud.x, cloud.y, cloud.z);
   promoteIntegerFields(file, normals, FieldType::Float32);
   const std::array<const std::vector<double>*, 3> positions{&cloud.x, &cloud.y, &cloud.z};
   const std::array<const std::vector<float>*, 3> directions{&cloud.normal_x, &cloud.normal_y, &cloud.normal_z};

@@ -2,7 +2,9 @@
 #include "field_types.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace pcl_gpf {
 
@@ -69,6 +71,17 @@ promoteIntegerFields(CloudFile& cloud, const std::vector<std::string>& names, Fi
   if (!integers.empty())
     changeFieldTypes(cloud, integers, type);
   return integers;
+}
+
+void
+widenCoordinates(CloudFile& cloud, const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z)
+{
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  const auto beyond = [](const std::vector<double>& values) {
+    return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value) && std::abs(value) > kLargest; });
+  };
+  if (beyond(x) || beyond(y) || beyond(z))
+    changeFieldTypes(cloud, {"x", "y", "z"}, FieldType::Float64);
 }
 
 } // namespace pcl_gpf

@@ -17,4 +17,8 @@ changeFieldTypes(CloudFile& cloud, const std::vector<std::string>& names, FieldT
 std::vector<std::string>
 promoteIntegerFields(CloudFile& cloud, const std::vector<std::string>& names, FieldType type);
 
+/** \brief Makes the coordinates double if any of these finite values is beyond float, as moves at its limit may be. */
+void
+widenCoordinates(CloudFile& cloud, const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z);
+
 } // namespace pcl_gpf

@@ -2,6 +2,7 @@
 #include "run_options.h"
 
 #include "filter_parameters.h"
+#include "filter_presets.h"
 #include "mesh_options.h"
 #include "option_groups.h"
 #include "orient_options.h"
@@ -34,10 +35,8 @@ const std::vector<OptionSpec>&
 groupOptions(const std::string& group)
 {
   static const std::map<std::string, std::vector<OptionSpec>> groups = [] {
-    OptionSpec preset{"preset", OptionKind::Choice, "", "default", "paper: Algorithm 1 of the paper with its literal values"};
-    preset.choices = {"default", "paper"};
     return std::map<std::string, std::vector<OptionSpec>>{
-        {"filter", std::vector<OptionSpec>{preset} + optionsOf(filterParameters())},
+        {"filter", std::vector<OptionSpec>{presetOption()} + optionsOf(filterParameters())},
         {"orient", orientOptions()},
         {"upsample", without(upsampleOptions(), "normals")},
         {"mesh", without(meshOptions(), "orientation")}};
@@ -84,10 +83,7 @@ ofStage(const std::string& group, const std::function<Result()>& body)
 DenoiseParameters
 readDenoise(const Options& filter, const CloudScale& scale)
 {
-  DenoiseParameters base;
-  if (filter.text("preset") == "paper")
-    base.gpf = GPFParameters::paper();
-  DenoiseParameters parameters = readParameters(filterParameters(), filter, scale, base);
+  DenoiseParameters parameters = readParameters(filterParameters(), filter, scale, presetNamed(filter.text("preset")));
   parameters.gpf.seed = filter.count("seed");
   return parameters;
 }

@@ -7,6 +7,7 @@
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/search/kdtree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -25,6 +26,15 @@ check(const NormalEstimationParameters& parameters)
 }
 
 } // namespace
+
+NormalEstimationParameters
+detail::inFrame(NormalEstimationParameters parameters, const LocalFrame& frame)
+{
+  constexpr double kSmallest = 1e-15, kLargest = 1e16; // extents; floats hold their squares
+  if (parameters.radius > 0 && std::isfinite(parameters.radius))
+    parameters.radius = std::clamp(frame.lengthToLocal(parameters.radius), kSmallest, kLargest);
+  return parameters;
+}
 
 pcl::PointCloud<pcl::Normal>
 estimateNormalsOfFinitePoints(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& points,
@@ -48,7 +58,7 @@ estimateNormalsOfFinitePoints(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& po
   if (parameters.radius > 0)
     estimation.setRadiusSearch(parameters.radius);
   else
-    estimation.setKSearch(static_cast<int>(parameters.neighbors));
+    estimation.setKSearch(static_cast<int>(std::min<std::size_t>(parameters.neighbors, points->size()))); // PCL counts in int
   estimation.compute(normals);
   return normals;
 }

@@ -167,6 +167,17 @@ collect(const ClusterTree& tree, PointsView queries, std::size_t threads, const 
   return result;
 }
 
+/** \throws InvalidParameter */
+void
+checkLists(const NeighborLists& lists, std::size_t queries, std::size_t data)
+{
+  if (lists.offsets.size() != queries + 1 || lists.offsets.front() != 0 || lists.offsets.back() != lists.indices.size() ||
+      !std::is_sorted(lists.offsets.begin(), lists.offsets.end()))
+    throw InvalidParameter("the neighbour search does not give one row for each of the " + std::to_string(queries) + " queries");
+  if (std::any_of(lists.indices.begin(), lists.indices.end(), [data](std::uint32_t index) { return index >= data; }))
+    throw InvalidParameter("the neighbour search gives a neighbour that is none of the " + std::to_string(data) + " points");
+}
+
 } // namespace
 
 CandidateCount
@@ -192,15 +203,15 @@ findNeighborhoods(const ClusterTree& tree, PointsView queries, const float* radi
 }
 
 Neighborhoods
-transposeLists(const NeighborLists& lists, std::size_t absent)
+transposeLists(const NeighborLists& lists, std::size_t queries, std::size_t data)
 {
-  if (absent > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  if (data > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw ExcessiveWork("a foreign neighbour search is limited to 2^31 - 1 points");
-  const std::size_t queries = lists.offsets.size() - 1;
+  checkLists(lists, queries, data);
   const std::size_t blocks = (queries + kQueryBlock - 1) / kQueryBlock;
   Neighborhoods result;
   result.query_count = queries;
-  result.absent = absent;
+  result.absent = data;
   result.lane_offsets.assign(blocks + 1, 0);
   const auto rowSize = [&](std::size_t q) { return lists.offsets[q + 1] - lists.offsets[q]; };
   for (std::size_t block = 0; block < blocks; ++block) {
@@ -209,7 +220,7 @@ transposeLists(const NeighborLists& lists, std::size_t absent)
       longest = std::max(longest, rowSize(q));
     result.lane_offsets[block + 1] = result.lane_offsets[block] + longest;
   }
-  result.lanes.assign(result.lane_offsets.back() * kQueryBlock, static_cast<std::int32_t>(absent));
+  result.lanes.assign(result.lane_offsets.back() * kQueryBlock, static_cast<std::int32_t>(data));
   for (std::size_t q = 0; q < queries; ++q)
     for (std::size_t k = 0; k < rowSize(q); ++k)
       result.lanes[(result.lane_offsets[q / kQueryBlock] + k) * kQueryBlock + q % kQueryBlock] =

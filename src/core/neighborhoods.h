@@ -48,9 +48,10 @@ findNeighborhoods(const ClusterTree& tree, PointsView queries, double radius, st
 Neighborhoods
 findNeighborhoods(const ClusterTree& tree, PointsView queries, const float* radius_sq, std::size_t threads);
 
-/** \brief From rows of neighbours. \param[in] absent index that stands for no neighbour (a padded data point) */
+/** \brief From rows of neighbours that a foreign search found. \param[in] data their number, which stands for no neighbour too (a padded
+ * data point) \throws InvalidParameter where there are not as many rows as queries, or a neighbour is none of the data */
 Neighborhoods
-transposeLists(const NeighborLists& lists, std::size_t absent);
+transposeLists(const NeighborLists& lists, std::size_t queries, std::size_t data);
 
 /** \brief Rows of data -> queries turned into rows of queries -> data. */
 NeighborLists

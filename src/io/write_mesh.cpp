@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_gpf/io/write_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -74,6 +75,11 @@ private:
   std::vector<unsigned char> block_;
 };
 
+bool fitsFloat(const TriangleMesh& mesh) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](double c) { return std::abs(c) <= kLargest; });
+}
+
 void writeAs(const MeshFile& file, bool double_coordinates, const ByteSink& sink) {
   const std::string text = header(file, double_coordinates);
   sink(text.data(), text.size());
@@ -110,12 +116,13 @@ void checkMeshWritable(const std::string& path, bool overwrite) {
 void writeMesh(const MeshFile& mesh, const std::string& path, const MeshWriteOptions& options) {
   validate(mesh);
   checkMeshWritable(path, options.overwrite);
+  const bool double_coordinates = options.double_coordinates || !fitsFloat(mesh.mesh);
   if (path == "-") {
-    writeAs(mesh, options.double_coordinates, standardOutputSink());
+    writeAs(mesh, double_coordinates, standardOutputSink());
     return;
   }
   AtomicFile file(path, options.overwrite);
-  writeAs(mesh, options.double_coordinates,
+  writeAs(mesh, double_coordinates,
           [&file](const void* bytes, std::size_t size) { file.write(bytes, size); });
   file.commit();
 }

@@ -101,6 +101,8 @@ sampleSurfaces(const DenoiseInput& input, const Packed& packed, const UpsamplePa
   const MLSPoints made = upsampleByMls(points, mls);
   result.radius = made.radius;
   result.dropped_points = made.dropped.size();
+  if (made.points.empty())
+    throw UnsuitableData("no point has 3 neighbours within the radius of moving least squares; choose a larger radius");
   for (std::size_t k = 0; k < made.points.size(); ++k) {
     const pcl::PointNormal& p = made.points[k];
     const std::uint32_t row = rows[made.sources[k]];

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/analysis/spacing.h>
 #include <pcl_gpf/core/analysis/surface_extent.h>
+#include <pcl_gpf/core/analysis/work_estimate.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/parallel.h>
+#include <pcl_gpf/core/point_index.h>
 #include <pcl_gpf/core/sampling.h>
 #include <pcl_gpf/core/soa_buffer.h>
 #include <pcl_gpf/surface/mls_points.h>
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace pcl_gpf {
 
@@ -54,7 +57,26 @@ checkWork(const MLSUpsamplingParameters& p, std::size_t points, double extent)
                         " voxels wide, at most a million can be numbered; ask for larger voxels");
 }
 
-/** Fills in what is estimated. \throws UnsuitableData */
+/** \throws ExcessiveWork for a radius that holds so many points that PCL's fits take minutes */
+void
+refuseWideRadius(const MLSUpsamplingParameters& p, SoaBuffer positions, double extent)
+{
+  constexpr double kSecondsPerNeighbor = 2e-7; // found, sorted and summed up
+  for (AlignedArray<float>* axis : {&positions.x, &positions.y, &positions.z})
+    for (float& coordinate : *axis)
+      coordinate = static_cast<float>(coordinate / extent);
+  PlaneNormalsParameters ball;
+  ball.radius = p.radius / extent;
+  ball.merge_above = 0;
+  ball.number_of_threads = p.number_of_threads;
+  WorkEstimate work = estimateWork(ball, PointIndex(std::as_const(positions).view(), p.number_of_threads));
+  work.parameter = "the radius of moving least squares";
+  work.nominal_seconds = kSecondsPerNeighbor * work.pairs;
+  work.seconds = work.nominal_seconds / static_cast<double>(resolveThreads(p.number_of_threads));
+  refuseExcessiveWork(work);
+}
+
+/** Fills in what is estimated. \throws UnsuitableData, ExcessiveWork */
 MLSUpsamplingParameters
 effectiveParameters(MLSUpsamplingParameters p, const pcl::PointCloud<pcl::PointXYZ>& points)
 {
@@ -85,6 +107,7 @@ effectiveParameters(MLSUpsamplingParameters p, const pcl::PointCloud<pcl::PointX
   if (p.density == 0.0)
     p.density = 5.0 * std::acos(-1.0) * (p.radius / spacing) * (p.radius / spacing);
   checkWork(p, points.size(), 2.0 * static_cast<double>(extent));
+  refuseWideRadius(p, std::move(positions), static_cast<double>(extent));
   return p;
 }
 

@@ -100,6 +100,28 @@ TEST(NormalEstimation, EmptyTinyAndAllNaNClouds)
   EXPECT_EQ(estimateNormals(cloud), 10u);
 }
 
+TEST(NormalEstimation, NeighboursBeyondTheCloudAreAllOfIt)
+{
+  const Cloud::Ptr all = sphereWithoutNormals(60), more = sphereWithoutNormals(60);
+  NormalEstimationParameters parameters;
+  parameters.neighbors = 60;
+  estimateNormals(*all, parameters);
+  parameters.neighbors = std::numeric_limits<unsigned>::max(); // -1 as PCL counts
+  EXPECT_EQ(estimateNormals(*more, parameters), 0u);
+  for (std::size_t i = 0; i < all->size(); ++i)
+    EXPECT_EQ(normal((*more)[i]), normal((*all)[i]));
+}
+
+TEST(NormalEstimation, PointsFartherApartThanFloatReachesGetNoNormal)
+{
+  const Cloud::Ptr cloud = sphereWithoutNormals(200);
+  (*cloud)[0].x = -3e38f; // garbage, and the first point at that: its difference from the second is infinite
+  (*cloud)[9].x = 3e38f;
+  EXPECT_EQ(estimateNormals(*cloud), 2u);
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    EXPECT_EQ(pcl::isNormalFinite((*cloud)[i]), i != 0 && i != 9) << i;
+}
+
 TEST(NormalEstimation, ParametersOutOfRangeThrow)
 {
   const Cloud::Ptr cloud = sphereWithoutNormals(100);

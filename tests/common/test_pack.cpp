@@ -105,6 +105,15 @@ TEST(Pack, DegenerateClouds)
   EXPECT_EQ(one.points.x[0], 0.0f);
 }
 
+TEST(Unpack, AMoveStaysFiniteAndNoMoveKeepsTheSignOfZero)
+{
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  EXPECT_EQ(detail::moved(kLargest, 0.01f, 6e38), kLargest);
+  EXPECT_EQ(detail::moved(-kLargest, -0.01f, 6e38), -kLargest);
+  EXPECT_TRUE(std::signbit(detail::moved(-0.0f, 0.0f, 2.0)));
+  EXPECT_EQ(detail::moved(1.0f, 0.25f, 2.0), 1.5f);
+}
+
 TEST(Unpack, MovesUsablePointsAndMakesHolesOfTheOthers)
 {
   const Cloud::Ptr cloud = toCloud<PointT>(cube(6), 2);

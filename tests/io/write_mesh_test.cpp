@@ -56,6 +56,13 @@ TEST_F(WriteMesh, NormalsAndColoursAreFieldsOfTheVertices) {
   EXPECT_EQ(cloud.comments, std::vector<std::string>{"made by a test"});
 }
 
+TEST_F(WriteMesh, CoordinatesBeyondFloatAreWrittenAsDouble) {
+  MeshFile file = tetrahedron();
+  file.mesh.vertices[0] = -1e39;
+  writeMesh(file, path("a.ply"), {});
+  EXPECT_EQ(readMesh(path("a.ply")).vertices, file.mesh.vertices);
+}
+
 TEST_F(WriteMesh, AnEmptyMeshIsAFile) {
   writeMesh({}, path("a.ply"));
   EXPECT_EQ(readCloud(path("a.ply")).size(), 0u);

@@ -192,5 +192,18 @@ TEST(MarchingCubesRIMLS, CanBeCancelled)
   EXPECT_FALSE(mesher.getStatistics().cancelled);
 }
 
+TEST(MarchingCubesRIMLS, VerticesAtTheLimitOfFloatAreFinite)
+{
+  Mesher mesher;
+  mesher.setInputCloud(toCloud<pcl::PointNormal>(sphere(1500), 1.9999 * static_cast<double>(std::numeric_limits<float>::max())));
+  mesher.setResolution(20);
+  Cloud vertices;
+  std::vector<pcl::Vertices> polygons;
+  mesher.reconstruct(vertices, polygons);
+  ASSERT_FALSE(vertices.empty());
+  for (const pcl::PointNormal& vertex : vertices)
+    ASSERT_TRUE(pcl::isXYZFinite(vertex));
+}
+
 } // namespace
 } // namespace pcl_gpf::test

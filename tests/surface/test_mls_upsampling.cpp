@@ -211,5 +211,15 @@ TEST(MLSUpsampling, ParametersAndWorkAreCheckedBefore)
   EXPECT_THROW(fails([](auto& p) { p.method = MLSMethod::RandomUniformDensity, p.density = 1e9; }), pcl::ComputeFailedException);
 }
 
+TEST(MLSUpsampling, ARadiusOfEverythingIsRefusedBeforeTheWork)
+{
+  const Cloud::Ptr cloud = ball(40000); // PCL would find 1.6 billion neighbours
+  Mls mls;
+  mls.setSearchRadius(10);
+  EXPECT_THROW(run(mls, cloud, MLSMethod::None), pcl::ComputeFailedException);
+  mls.setSearchRadius(0.05);
+  EXPECT_EQ(run(mls, cloud, MLSMethod::None).size(), cloud->size());
+}
+
 } // namespace
 } // namespace pcl_gpf::test

@@ -144,5 +144,19 @@ TEST(ToolMesh, WritesToStandardOutput)
   EXPECT_EQ(run.out.compare(0, 4, "ply\n"), 0);
 }
 
+TEST(ToolMesh, APointFarAwayDoesNotHideTheSurfaceOfTheOthers)
+{
+  for (const double away : {1e9, 1e14}) {
+    const TemporaryFolder folder;
+    Shape shape = sphere(2000);
+    shape.points.push_back({away, 0, 0});
+    shape.normals.push_back({1, 0, 0});
+    save(toCloudFile(shape), folder / "in.ply");
+    const ToolRun run = runTool({"mesh", folder / "in.ply", "-o", folder / "out.ply", "--resolution", "20"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("closed"), std::string::npos) << run.err;
+  }
+}
+
 } // namespace
 } // namespace pcl_gpf::test

@@ -159,5 +159,18 @@ TEST(RenderCommand, drawsARawScan)
   EXPECT_GT(render(folder, {scan, "--view", "0,0,1", "--up", "0,1,0"}).drawnPixels(), 2500u);
 }
 
+TEST(RenderCommand, aPointFarAwayDoesNotHideTheOthers)
+{
+  const TemporaryFolder folder;
+  Shape shape = cube(500, 0.0, 5);
+  save(toCloudFile(shape), folder / "near.pcd");
+  const std::size_t near = render(folder, {folder / "near.pcd"}).drawnPixels();
+  for (const double away : {1e3, 1e9}) {
+    shape.points.back() = {away, 0, 0};
+    save(toCloudFile(shape), folder / "stray.pcd");
+    EXPECT_NEAR(static_cast<double>(render(folder, {folder / "stray.pcd"}).drawnPixels()), static_cast<double>(near), 0.05 * static_cast<double>(near)) << away;
+  }
+}
+
 } // namespace
 } // namespace pcl_gpf::test

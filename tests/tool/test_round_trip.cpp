@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstring>
+#include <limits>
 
 namespace pcl_gpf::test {
 namespace {
@@ -141,6 +142,27 @@ TEST(ToolRoundTrip, OnePointFarAwayNeitherMakesTheOthersCoarseNorChangesTheirSpa
   const ToolRun run = runTool({"filter", folder / "stray.ply", "-o", folder / "out.ply", "--radius", "8x", "-q"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.err.find("quantised"), std::string::npos) << run.err;
+}
+
+TEST(ToolRoundTrip, CoordinatesAtTheLimitOfFloatStayFinite)
+{
+  const TemporaryFolder folder;
+  Shape shape = cube(1500, 0.0, 5);
+  for (Vector3& p : shape.points)
+    for (double& c : p)
+      c = (2.0 * c - 1.0) * static_cast<double>(std::numeric_limits<float>::max()) / 1.0001;
+  save(toCloudFile(shape), folder / "in.pcd");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"filter", "--preset", "paper", "--iterations", "3"},
+                                                std::vector<std::string>{"upsample"}, std::vector<std::string>{"mesh", "--resolution", "20"},
+                                                std::vector<std::string>{"run", "--stages", "filter,upsample", "--filter-repulsion", "0.5"}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.begin() + 1, folder / "in.pcd");
+    all.insert(all.end(), {"-o", folder / "out.ply", "--overwrite", "-q"});
+    const ToolRun run = runTool(all);
+    ASSERT_EQ(run.exit_code, 0) << words.front() << ": " << run.err;
+    const nlohmann::json info = nlohmann::json::parse(runTool({"info", folder / "out.ply", "--json"}).out);
+    EXPECT_EQ(info["finite"], info["points"]) << words.front();
+  }
 }
 
 TEST(ToolRoundTrip, TheNumberOfThreadsChangesNoByte)

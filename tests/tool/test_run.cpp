@@ -128,7 +128,7 @@ TEST(ToolRun, TakesOptionsFromAFileAndTheCommandLineGoesFirst)
   const TemporaryFolder folder;
   const std::string in = saveSphere(folder / "in.ply"), config = folder / "run.json";
   writeBytes(config, R"({"stages": ["filter", "orient", "mesh"], "threads": 1, "overwrite": true,
-                         "filter": {"iterations": 3, "posterior-normalization": false},
+                         "filter": {"preset": "freeform", "iterations": 3, "posterior-normalization": false},
                          "upsample": {"factor": 4}, "mesh": {"resolution": 20, "no-projection": true}})");
   const auto triangles = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"run", in, "-o", folder / "out.ply", "--overwrite", "--json=" + (folder / "r.json")});
@@ -141,8 +141,10 @@ TEST(ToolRun, TakesOptionsFromAFileAndTheCommandLineGoesFirst)
   EXPECT_EQ(report["threads"], 1);
   EXPECT_EQ(report["filter"]["parameters"]["iterations"]["value"], 3);
   EXPECT_EQ(report["filter"]["parameters"]["iterations"]["origin"], "user");
-  EXPECT_EQ(coarse, triangles({"--filter-iterations", "3", "--filter-posterior-normalization", "off", "--mesh-resolution", "20",
-                               "--mesh-no-projection"}));
+  EXPECT_EQ(report["filter"]["parameters"]["bilateral-angle"]["value"], 60);
+  EXPECT_EQ(report["filter"]["parameters"]["bilateral-angle"]["origin"], "preset");
+  EXPECT_EQ(coarse, triangles({"--filter-preset", "freeform", "--filter-iterations", "3", "--filter-posterior-normalization", "off",
+                               "--mesh-resolution", "20", "--mesh-no-projection"}));
   EXPECT_GT(triangles({"--config", config, "--mesh-resolution", "60"}), 6 * coarse);
 }
 

@@ -149,6 +149,7 @@ TEST(UpsampleCommand, errorsBeforeTheWorkLeaveNoFile)
   fails(2, "exclude", {folder / "in.pcd", "--count", "600", "--factor", "2"});
   fails(2, "factor", {folder / "in.pcd", "--factor", "0.5"});
   fails(2, "auto", {folder / "in.pcd", "--spacing", "auto"});
+  fails(5, "3 neighbours", {folder / "in.pcd", "--method", "mls", "--radius", "1e-9"});
   fails(2, "edge-sensitivity", {folder / "in.pcd", "--edge-sensitivity", "11"});
   fails(2, "mls-order", {folder / "in.pcd", "--mls-order", "3"});
   fails(5, "pcl_gpf_tool normals", {folder / "in.pcd", "--oriented"});

@@ -2,6 +2,7 @@
 #include "../apply_result.h"
 #include "../console.h"
 #include "../filter_parameters.h"
+#include "../filter_presets.h"
 #include "../filter_report.h"
 #include "../json_report.h"
 #include "../option_groups.h"
@@ -14,7 +15,6 @@
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/core/parallel.h>
 #include <pcl_gpf/io/write_cloud.h>
-#include <pcl_gpf/pipeline/presets.h>
 
 #include <nlohmann/json.hpp>
 
@@ -34,15 +34,9 @@ takesNormalsOfFile(const Options& options, const CloudFile& file)
 }
 
 DenoiseParameters
-presetOf(const std::string& name)
-{
-  return name == "paper" ? paperPreset() : name == "prismatic" ? prismaticPreset() : name == "freeform" ? freeformPreset() : DenoiseParameters();
-}
-
-DenoiseParameters
 chosenParameters(const Options& options, const LoadedCloud& cloud, const CloudScale& scale)
 {
-  DenoiseParameters parameters = readParameters(filterParameters(), options, scale, presetOf(options.text("preset")));
+  DenoiseParameters parameters = readParameters(filterParameters(), options, scale, presetNamed(options.text("preset")));
   parameters.flags = neededFlags(options);
   if (options.given("samples")) {
     const Share share = options.share("samples");
@@ -159,11 +153,9 @@ runFilter(const Options& options)
 std::vector<OptionSpec>
 ownOptions()
 {
-  OptionSpec preset{"preset", OptionKind::Choice, "", "default", "freeform: smooth shapes; prismatic: flat faces and sharp edges; paper: Algorithm 1 with its literal values"};
-  preset.choices = {"default", "freeform", "prismatic", "paper"};
   OptionSpec normals{"normals", OptionKind::Choice, "", "auto", "auto: those of the file if it has any, else estimated"};
   normals.choices = {"auto", "file", "estimate"};
-  return {preset,
+  return {presetOption(),
           {"samples", OptionKind::Share, "N|P%", "100%", "filter and write only a random part of the points, as the paper does"},
           normals,
           {"no-normals", OptionKind::Flag, "", "", "do not write the filtered normals; normals of the input stay as they are"}};

@@ -92,7 +92,7 @@ chooseView(const Options& options, const std::vector<PictureCloud>& clouds)
     return makeView(toward, axis == 'z' ? Position{0, 1, 0} : Position{0, 0, 1});
   }
   const std::array<double, 7>& viewpoint = clouds[0].file.viewpoint;
-  const View automatic = automaticView(clouds[0].box, {viewpoint[0], viewpoint[1], viewpoint[2]});
+  const View automatic = automaticView(clouds[0].dense, {viewpoint[0], viewpoint[1], viewpoint[2]});
   if (!options.given("view") && !options.given("up"))
     return automatic;
   return makeView(options.given("view") ? vectorOption(options, "view") : automatic.toward,

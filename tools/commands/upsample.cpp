@@ -62,6 +62,7 @@ assemble(const LoadedCloud& cloud, const UpsampleResult& result)
   rows.insert(rows.end(), result.parents.begin(), result.parents.end());
   CloudFile output = cloud.file.select(rows);
   promoteIntegerFields(output, kAxes, FieldType::Float64);
+  widenCoordinates(output, result.x, result.y, result.z);
   for (std::size_t k = 0; k < result.parents.size(); ++k) {
     output.setCoordinate(first + k, 0, result.x[k]);
     output.setCoordinate(first + k, 1, result.y[k]);

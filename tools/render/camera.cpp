@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "camera.h"
 
+#include <pcl_gpf/core/dense_box.h>
+
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace pcl_gpf {
@@ -22,6 +25,22 @@ extent(const std::vector<Position>& points, const Position& origin, const Positi
   const double lowest = *low;
   std::nth_element(values.begin(), high, values.end());
   return {lowest, *high};
+}
+
+/** The points in the dense part of their box. */
+std::vector<Position>
+densePart(const std::vector<Position>& points)
+{
+  BoundingBox box;
+  for (const Position& p : points)
+    box.add(p[0], p[1], p[2]);
+  const BoundingBox dense = denseBox(box, points.size(), [&points](std::size_t i, std::size_t axis) { return points[i][axis]; });
+  std::vector<Position> inside;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(inside), [&dense](const Position& p) {
+    return p[0] >= dense.min[0] && p[1] >= dense.min[1] && p[2] >= dense.min[2] && p[0] <= dense.max[0] && p[1] <= dense.max[1] &&
+           p[2] <= dense.max[2];
+  });
+  return inside.empty() ? points : inside;
 }
 
 } // namespace
@@ -57,9 +76,10 @@ automaticView(const BoundingBox& box, const Position& sensor)
 }
 
 Camera
-fitCamera(const View& view, const std::vector<Position>& points, std::size_t width, std::size_t height)
+fitCamera(const View& view, const std::vector<Position>& all, std::size_t width, std::size_t height)
 {
   constexpr double kFilled = 0.92;
+  const std::vector<Position> points = densePart(all);
   const Position origin = points.front(); // differences keep the detail of large coordinates
   const auto [left, right] = extent(points, origin, view.right);
   const auto [bottom, top] = extent(points, origin, view.up);

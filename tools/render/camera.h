@@ -47,7 +47,7 @@ struct Camera {
   }
 };
 
-/** \brief Camera that shows all points but the outermost thousandth on each side, with a margin.
+/** \brief Camera that shows all points but the outermost thousandth on each side and those far away from all others, with a margin.
  *
  * \param[in] points all finite, at least one
  */

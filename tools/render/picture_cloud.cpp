@@ -30,10 +30,6 @@ localPoints(const PictureCloud& cloud, const LocalFrame& frame)
   return local;
 }
 
-} // namespace
-
-namespace {
-
 /** Faces of a PLY file, as places among the points shown; empty when it has none. */
 std::vector<std::uint32_t>
 readTriangles(const PictureCloud& cloud)
@@ -85,6 +81,7 @@ readPictureCloud(const std::string& path, unsigned threads, Console& console)
   PictureCloud cloud;
   cloud.path = path;
   cloud.box = loaded.box;
+  cloud.dense = denseBoxOf(loaded);
   const CloudCoordinates& c = loaded.coordinates;
   for (std::size_t row = 0; row < loaded.file.size(); ++row)
     if (std::isfinite(c.x[row]) && std::isfinite(c.y[row]) && std::isfinite(c.z[row])) {
@@ -93,7 +90,7 @@ readPictureCloud(const std::string& path, unsigned threads, Console& console)
     }
   cloud.file = std::move(loaded.file);
   cloud.triangles = readTriangles(cloud);
-  const LocalFrame frame = localFrame(cloud.box);
+  const LocalFrame frame = localFrame(cloud.box, cloud.dense);
   cloud.index = std::make_shared<const PointIndex>(localPoints(cloud, frame).view(), threads);
   cloud.spacing = frame.lengthToWorld(estimateSpacing(*cloud.index, threads));
   return cloud;
@@ -121,7 +118,7 @@ takeNormals(PictureCloud& cloud)
 void
 estimateNormals(PictureCloud& cloud, double radius, unsigned threads)
 {
-  const LocalFrame frame = localFrame(cloud.box);
+  const LocalFrame frame = localFrame(cloud.box, cloud.dense);
   SoaBuffer normals(cloud.points.size());
   PlaneNormalsParameters parameters;
   parameters.radius = frame.lengthToLocal(radius);

@@ -22,12 +22,13 @@ struct PictureCloud {
   std::string path;
   CloudFile file;
   BoundingBox box;                  ///< of all finite points
+  BoundingBox dense;                ///< of them without those that lie far away from all others
   double spacing = 0;               ///< of the file's points, cloud units
   std::vector<std::uint32_t> rows;  ///< rows of the file that are shown, finite
   std::vector<Position> points;     ///< their positions
   std::vector<Position> normals;    ///< unit or zero, one per point; empty until set
   std::vector<std::uint32_t> triangles; ///< of a mesh, three places in `points` each; empty for a cloud
-  std::shared_ptr<const PointIndex> index; ///< of the points in the frame of the box; gone after keepOnly()
+  std::shared_ptr<const PointIndex> index; ///< of the points in the frame of the boxes; gone after keepOnly()
 };
 
 /** \brief Reads a cloud, or a mesh (a PLY file with faces); all its finite points are shown. \throws IoError (kind Unreadable), UnsuitableData if there is none */

@@ -7,6 +7,7 @@
 
 #include <pcl/point_cloud.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -24,11 +25,20 @@ struct FilteredPoints {
 
 namespace detail {
 
-/** \brief A coordinate plus its displacement; one that nothing moved keeps its last bit. */
+/** \brief A finite coordinate as the nearest finite float. */
+inline float
+finiteFloat(double coordinate)
+{
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(coordinate, -kLargest, kLargest));
+}
+
+/** \brief A coordinate plus its displacement, finite; one that nothing moved keeps its last bit. */
 inline float
 moved(float seed, float displacement, double scale)
 {
-  return static_cast<float>(static_cast<double>(seed) + static_cast<double>(displacement) * scale);
+  return displacement == 0.0f ? seed // adding 0 would turn -0 into 0
+                              : finiteFloat(static_cast<double>(seed) + static_cast<double>(displacement) * scale);
 }
 
 template <typename PointT> void

@@ -59,7 +59,7 @@ public:
 
   ~OperatorFilter() override;
 
-  /** \brief Neighbour search; null = the built-in grid, which is faster. Default null. The result is the same.
+  /** \brief Neighbour search; null = the built-in tree, which is faster. Default null. The result is the same.
    * \note The search is given temporary clouds and keeps the last of them. pcl::search::OrganizedNeighbor cannot serve.
    */
   void

@@ -60,15 +60,15 @@ public:
   void setSupportRadius(double radius) { parameters_.radius = radius; }
   double getSupportRadius() const { return parameters_.radius; }
 
-  /** \brief sigma_n, weight of normals: 0.5 sharp, 1.5 smooth. Default 0.75. */
+  /** \brief sigma_n, weight of normals, 0.001 .. 1e6: 0.5 sharp, 1.5 smooth. Default 0.75. */
   void setSigmaN(double sigma) { parameters_.sigma_n = sigma; }
   double getSigmaN() const { return parameters_.sigma_n; }
 
-  /** \brief sigma_r, weight of residuals, as a share of h; 0 = off, as in MeshLab. Default 0. */
+  /** \brief sigma_r, weight of residuals, as a share of h, 0.001 .. 1e6; 0 = off, as in MeshLab. Default 0. */
   void setSigmaR(double sigma) { parameters_.sigma_r = sigma; }
   double getSigmaR() const { return parameters_.sigma_r; }
 
-  /** \brief Fits of each value, the first of them plain. Default 3. */
+  /** \brief Fits of each value, the first of them plain, 1 .. 100. Default 3. */
   void setFits(unsigned fits) { parameters_.fits = fits; }
   unsigned getFits() const { return parameters_.fits; }
 

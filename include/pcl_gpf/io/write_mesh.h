@@ -21,7 +21,7 @@ struct MeshFile {
 struct MeshWriteOptions {
   /** \brief Replace an existing file. */
   bool overwrite = false;
-  /** \brief Coordinates as double, for places far from the origin; else float. */
+  /** \brief Coordinates as double, for places far from the origin; else float, unless one is beyond it. */
   bool double_coordinates = false;
 };
 

@@ -33,8 +33,8 @@ struct DenoiseParameters {
   GPFParameters gpf;
 
   /** Filter at two scales and take at each point the coarse result, or the fine one where the coarse one took detail away
-   * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals (no repulsion, no gap filling);
-   * otherwise one scale. */
+   * (selectFineScale()). Only where all three radii are estimated, every point is kept and points move along normals (no repulsion, no
+   * gap filling); otherwise one scale. */
   bool two_scales = true;
 
   /** Filter a third time with yet narrower balls where the two scales drew thin parts together (findThinParts()); only with two scales and
@@ -60,7 +60,7 @@ struct DenoiseParameters {
   /** What is found out beside the filtered points. */
   DenoiseFlags flags;
 
-  unsigned number_of_threads = 0; ///< for all three; 0 = all that the process may use
+  unsigned number_of_threads = 0; ///< for all stages, whatever their own structs say; 0 = all that the process may use
 };
 
 /** \brief Checks every range. \throws InvalidParameter */
@@ -87,7 +87,8 @@ struct DenoiseResult {
   std::vector<std::uint8_t> fine;            ///< 1 = the fine or finest scale's result was taken; empty when one scale was filtered
   std::size_t finest_points = 0;             ///< points that took the finest scale's result
   static constexpr float kOutlier = 0.5f;    ///< points above are outliers
-  std::vector<float> outlier;                ///< probability 0 .. 1 that the point is none of the surface (outlierProbabilities()); 0 below about 200 points, too few to tell
+  std::vector<float> outlier;                ///< probability 0 .. 1 that the point is none of the surface (outlierProbabilities());
+                                             ///< 0 below about 200 points, too few to tell
   std::vector<double> sigma;                 ///< noise that was taken out about the point, cloud units (localNoise())
   std::vector<std::uint8_t> edge;            ///< 1 = within h / 4 of a sharp edge of the filtered cloud (edgePoints())
   std::size_t limited_points = 0;            ///< points whose move was cut to `max_move`
@@ -109,12 +110,17 @@ struct DenoiseResult {
   double seconds_filter = 0;
 };
 
-/** \brief Called with the stage ("normals", "bilateral", "filter", "gaps" where they are filled, then "fine normals", ... where two scales are filtered, "finest normals", ... where thin parts are, and all with "repeated " before once outliers are left out) and its fraction done; return false to cancel. */
+/** \brief Called with a stage and its fraction done; return false to cancel.
+ *
+ * Stages in order: "normals", "bilateral", "filter"; "gaps" where they are filled; with two scales then "fine normals", "fine bilateral",
+ * "fine filter" and "fine planes" where the coarse one lost detail, "finest normals", ... where thin parts are, and "quadrics"; all of them
+ * once more with "repeated " before where outliers are left out. */
 using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
 
 /** \brief Filters a cloud given in double coordinates, every finite point by default; rows that are not finite are left out.
  *
- * A point that nothing moves keeps its coordinates to the last bit.
+ * A point that nothing moves keeps its coordinates to the last bit. Cost: O(points * points in the balls), about 10 us a point with two
+ * scales on one thread; memory about 170 bytes a point above input and result (docs/benchmarks.md).
  * \throws InvalidParameter, UnsuitableData (nothing finite, all points identical), ExcessiveWork, Cancelled
  * Thread safety: free function without shared state.
  */

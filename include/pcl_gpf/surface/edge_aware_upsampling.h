@@ -43,7 +43,8 @@ struct EdgeAwareUpsamplingStatistics {
   *   tells which.
   * - Header and sensor pose are the input's; is_dense is set by fact. The output may be the input cloud itself.
   * - No input cloud: PCL's error message, and the output is emptied. Nothing finite: a warning, and an empty output.
-  * - The object can be used again after success, cancellation and exceptions; after the latter two the output is empty.
+  * - The object can be used again after success, cancellation and exceptions; after the latter two the output is empty
+  *   (a cloud that is the input stays after an exception).
   *
   * \note Normals need no consistent orientation by default; where the sheets of a body lie closer than two spacings they
   * do: orient them and call setSignInvariant(false).

@@ -79,7 +79,7 @@ public:
   void setCellSize(double size) { parameters_.cell_size = size; }
   /** \brief Support radius in local radii, 1 .. 100. Default 6. */
   void setScale(double scale) { parameters_.rimls.scale = scale; }
-  /** \brief sigma_n, weight of normals: 0.5 sharp, 1.5 smooth. Default 0.75. */
+  /** \brief sigma_n, weight of normals, 0.001 .. 1e6: 0.5 sharp, 1.5 smooth. Default 0.75. */
   void setSigmaN(double sigma) { parameters_.rimls.sigma_n = sigma; }
   /** \brief Parts smaller than this share of the largest are removed, 0 .. 1. Default 0.01. */
   void setSmallestComponent(double share) { parameters_.smallest_component = share; }

@@ -32,7 +32,8 @@ struct MLSUpsamplingStatistics {
   *   getCorrespondingIndices() has the input point of every output point.
   * - Far from the origin no digits are lost: the fits are made about the centre of the cloud.
   * - No input cloud: an error message and an empty output, where PCL crashes. The output may be the input cloud itself.
-  * - The size of the output is foreseen; 100 million points and more are refused before the work begins.
+  * - The size of the output is foreseen; 100 million points and more are refused before the work begins, and so is a radius
+  *   whose fits take minutes.
   *
   * \note Moving least squares round sharp edges off; EdgeAwareUpsampling keeps them. The input itself is smoothed too: what comes
   * out are points of the fitted surface, not the input points and others.
@@ -61,6 +62,7 @@ public:
   /** \brief All parameters at once; lengths in cloud units. */
   void setParameters(const MLSUpsamplingParameters& parameters) { parameters_ = parameters; }
   const MLSUpsamplingParameters& getParameters() const { return parameters_; }
+  /** \brief Which points are put out. Default MLSMethod::VoxelGridDilation. */
   void setMethod(MLSMethod method) { parameters_.method = method; }
   /** \brief Radius of the neighbourhoods, cloud units; 0 = 4 times the spacing. Default 0. */
   void setSearchRadius(double radius) { parameters_.radius = radius; }
@@ -78,6 +80,7 @@ public:
   const pcl::Indices& getCorrespondingIndices() const { return corresponding_; }
   /** \brief After process(): finite input points that have fewer than 3 neighbours and made no surface, ascending. */
   const pcl::Indices& getDroppedIndices() const { return dropped_; }
+  /** \brief What the last process() did. */
   const MLSUpsamplingStatistics& getStatistics() const { return statistics_; }
 
 protected:

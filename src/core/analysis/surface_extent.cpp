@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_gpf/core/analysis/surface_extent.h>
+#include <pcl_gpf/core/dense_box.h>
+#include <pcl_gpf/core/soa_buffer.h>
+
+#include <cstdint>
+#include <vector>
 
 namespace pcl_gpf {
 
@@ -8,10 +13,9 @@ namespace {
 /** Second eigenvalue of the covariance below this share of the first: all points lie on one line. */
 constexpr double kLineRatio = 1e-12;
 
-} // namespace
-
+/** All of the points together. */
 bool
-spansSurface(PointsView points)
+spanTogether(PointsView points)
 {
   if (points.size < 3)
     return false;
@@ -31,6 +35,38 @@ spansSurface(PointsView points)
   const double products = c[0][0] * c[1][1] - c[0][1] * c[0][1] + c[0][0] * c[2][2] - c[0][2] * c[0][2] +
                           c[1][1] * c[2][2] - c[1][2] * c[1][2];
   return sum > 0.0 && products > kLineRatio * sum * sum;
+}
+
+/** The points in the dense part of their box. */
+SoaBuffer
+densePart(PointsView points)
+{
+  const float* axes[3] = {points.x, points.y, points.z};
+  const auto coordinate = [&axes](std::size_t i, std::size_t axis) { return static_cast<double>(axes[axis][i]); };
+  BoundingBox box;
+  for (std::size_t i = 0; i < points.size; ++i)
+    box.add(coordinate(i, 0), coordinate(i, 1), coordinate(i, 2));
+  const BoundingBox dense = denseBox(box, points.size, coordinate);
+  std::vector<std::uint32_t> inside;
+  for (std::size_t i = 0; i < points.size; ++i) {
+    bool within = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      within = within && coordinate(i, axis) >= dense.min[axis] && coordinate(i, axis) <= dense.max[axis];
+    if (within)
+      inside.push_back(static_cast<std::uint32_t>(i));
+  }
+  return elementsOf(points, inside);
+}
+
+} // namespace
+
+bool
+spansSurface(PointsView points)
+{
+  if (spanTogether(points))
+    return true;
+  const SoaBuffer dense = densePart(points); // beside a point far away the others look like one
+  return spanTogether(dense.view());
 }
 
 } // namespace pcl_gpf

@@ -227,7 +227,7 @@ runGapRound(const GapRound<Real>& round, GPFPoints<Real>& cloud)
     const double radius = 0.5 * round.parameters.support_radius;
     const float falloff = falloffOf(std::min(kWidestAngle, round.parameters.normal_angle));
     const auto near = [&](const Moved& points) {
-      return round.search ? transposeLists(round.search(data.positions, points.view(), radius), data.positions.size)
+      return round.search ? transposeLists(round.search(data.positions, points.view(), radius), points.size(), data.positions.size)
                           : findNeighborhoods(*data.tree, points.view(), radius, round.threads);
     };
     Moved before = take(which, moves, 0.0f, cloud), moved = take(which, moves, 1.0f, cloud);

@@ -93,7 +93,7 @@ Neighborhoods
 GPFSolver<Real>::neighborhoods(const ClusterTree& tree, PointsView data, PointsView queries, double reach) const
 {
   if (search_)
-    return transposeLists(search_(data, queries, reach), data.size);
+    return transposeLists(search_(data, queries, reach), queries.size, data.size);
   return findNeighborhoods(tree, queries, reach, threads_);
 }
 

@@ -131,7 +131,7 @@ NormalRounds::run(SortedVectors<float>& normals, const NeighborSearch& search, B
   }
   const PointsView view = points_.sorted();
   const Neighborhoods near =
-      foreign ? transposeLists(search(view, view, radius_), view.size) : neighborhoods(points_.tree(), view, radius_sq_);
+      foreign ? transposeLists(search(view, view, radius_), view.size, view.size) : neighborhoods(points_.tree(), view, radius_sq_);
   SortedVectors<float> next(normals.size());
   for (unsigned round = 0; round < parameters_.iterations; ++round) {
     kernels::BilateralNormals a = arguments(view, radius_sq_);

@@ -94,8 +94,9 @@ RimlsSurface::Implementation::prepare()
 {
   const std::size_t threads = resolveThreads(parameters.number_of_threads);
   chooseRadii(threads);
+  constexpr float kLeast = 1e-18f; // its square and the inverse of that are floats
   for (float& radius : radii) // with all points in one place any radius does, but none may be 0
-    radius = std::max(radius, 1e-12f);
+    radius = std::max(radius, kLeast);
   samples.points = {index->sorted().x, index->sorted().y, index->sorted().z};
   samples.inverse_sq.assign(radii.size() + kQueryBlock, 1.0f);
   for (std::size_t i = 0; i < radii.size(); ++i)

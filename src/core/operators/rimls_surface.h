@@ -43,7 +43,7 @@ struct RimlsSurface::Implementation {
       std::copy_n(positions.y + pass, count, queries.y.data());
       std::copy_n(positions.z + pass, count, queries.z.data());
       const PointsView view{queries.x.data(), queries.y.data(), queries.z.data(), count};
-      const Neighborhoods near = search ? transposeLists(search(index->sorted(), view, largest_radius), index->size())
+      const Neighborhoods near = search ? transposeLists(search(index->sorted(), view, largest_radius), count, index->size())
                                         : findNeighborhoods(balls, view, 0.0, threads);
       parallelBlocks(count, RimlsFit::kBatch, threads, [&](std::size_t begin, std::size_t end) {
         RimlsFit fit(parameters, samples);

@@ -117,7 +117,7 @@ private:
       lists.indices.insert(lists.indices.end(), candidates.back().begin(), candidates.back().end());
       lists.offsets.push_back(lists.indices.size());
     }
-    near = transposeLists(lists, data_count);
+    near = transposeLists(lists, query_count, data_count);
   }
 };
 

@@ -318,5 +318,26 @@ TEST(BilateralNormals, refuseParametersOutsideTheirRange)
   EXPECT_THROW(filterNormalsBilaterally({}, cloud.points.view(), normals.view()), InvalidParameter);
 }
 
+TEST(BilateralNormals, ASearchOfOthersIsCheckedBeforeItsAnswersAreUsed)
+{
+  const LocalCloud cloud = toLocalCloud(sphere(200));
+  BilateralNormalsParameters p;
+  p.radius = 0.2;
+  const auto search = [](std::size_t rows, std::uint32_t neighbor) {
+    return [rows, neighbor](PointsView, PointsView, double) {
+      NeighborLists lists;
+      for (std::size_t row = 0; row <= rows; ++row)
+        lists.offsets.push_back(row);
+      lists.indices.assign(rows, neighbor);
+      return lists;
+    };
+  };
+  EXPECT_NO_THROW(filtered(cloud, cloud.normals, p, 1, search(200, 199)));
+  EXPECT_THROW(filtered(cloud, cloud.normals, p, 1, search(200, 200)), InvalidParameter) << "no such point";
+  EXPECT_THROW(filtered(cloud, cloud.normals, p, 1, search(200, 0xffffffffu)), InvalidParameter) << "-1";
+  EXPECT_THROW(filtered(cloud, cloud.normals, p, 1, search(199, 0)), InvalidParameter) << "a row too few";
+  EXPECT_THROW(filtered(cloud, cloud.normals, p, 1, [](PointsView, PointsView, double) { return NeighborLists(); }), InvalidParameter);
+}
+
 } // namespace
 } // namespace pcl_gpf::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/common/exceptions.h>
+#include <pcl_gpf/common/unpack.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/pipeline/consolidation.h>
 
@@ -162,9 +163,9 @@ Consolidation<PointT>::writeCloud(const pcl::Indices& chosen, const Consolidated
   output.is_dense = true;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     PointT& point = output[i];
-    point.x = static_cast<float>(cloud.x[i]);
-    point.y = static_cast<float>(cloud.y[i]);
-    point.z = static_cast<float>(cloud.z[i]);
+    point.x = detail::finiteFloat(cloud.x[i]);
+    point.y = detail::finiteFloat(cloud.y[i]);
+    point.z = detail::finiteFloat(cloud.z[i]);
     point.normal_x = cloud.normal_x[i];
     point.normal_y = cloud.normal_y[i];
     point.normal_z = cloud.normal_z[i];
@@ -179,9 +180,9 @@ Consolidation<PointT>::writeMesh(const pcl::Indices& chosen, const MeshResult& m
   copyParents(chosen, made.source_rows, vertices, mesh_corresponding_);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     PointT& point = vertices[v];
-    point.x = static_cast<float>(made.vertices[3 * v]);
-    point.y = static_cast<float>(made.vertices[3 * v + 1]);
-    point.z = static_cast<float>(made.vertices[3 * v + 2]);
+    point.x = detail::finiteFloat(made.vertices[3 * v]);
+    point.y = detail::finiteFloat(made.vertices[3 * v + 1]);
+    point.z = detail::finiteFloat(made.vertices[3 * v + 2]);
     point.normal_x = made.normals[3 * v];
     point.normal_y = made.normals[3 * v + 1];
     point.normal_z = made.normals[3 * v + 2];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_gpf/common/exceptions.h>
+#include <pcl_gpf/common/unpack.h>
 #include <pcl_gpf/core/analysis/nearest_source.h>
 #include <pcl_gpf/core/analysis/orientation_check.h>
 #include <pcl_gpf/core/errors.h>
@@ -151,9 +152,9 @@ MarchingCubesRIMLS<PointT>::writeMesh(const PackedCloud& packed, const SurfaceMe
     corresponding_.push_back(usable[sources[v]]);
     PointT& point = points[v];
     point = (*this->input_)[static_cast<std::size_t>(corresponding_.back())];
-    point.x = static_cast<float>(packed.frame.toWorld(mesh.vertices.x[v], 0));
-    point.y = static_cast<float>(packed.frame.toWorld(mesh.vertices.y[v], 1));
-    point.z = static_cast<float>(packed.frame.toWorld(mesh.vertices.z[v], 2));
+    point.x = detail::finiteFloat(packed.frame.toWorld(mesh.vertices.x[v], 0));
+    point.y = detail::finiteFloat(packed.frame.toWorld(mesh.vertices.y[v], 1));
+    point.z = detail::finiteFloat(packed.frame.toWorld(mesh.vertices.z[v], 2));
     point.normal_x = mesh.normals.x[v];
     point.normal_y = mesh.normals.y[v];
     point.normal_z = mesh.normals.z[v];
