@@ -58,6 +58,8 @@ struct SteeredMomentSum {
                             hn::Mul(hn::Mul(o.x, o.y), metric_mixed.z));
     const V share = hn::Max(hn::Sub(hn::Set(d, 1.0f), hn::Add(square, cross)), hn::Zero(d));
     V weight = hn::IfThenElseZero(inside, hn::Mul(share, share));
+    if (hn::AllFalse(d, hn::Gt(weight, hn::Zero(d)))) // more often than not: thin ellipsoids in balls as long as they
+      return;
     if (kWeighted)
       weight = hn::Mul(weight, datum(d, a.data_weight));
     weight_sum = hn::Add(weight_sum, weight);
