@@ -12,8 +12,9 @@ struct QuadricFitParameters {
   double radius = 0.0;       ///< of the narrowest ball, >= 0; 0 = estimated, where something estimates it
   double noise = 0.0;        ///< standard deviation along the normal at the quietest places, >= 0, the unit of the radius
   double spacing = 0.0;      ///< of the points, > 0, the unit of the radius
-  unsigned levels = 5;       ///< balls of radius 1, sqrt(2), 2, ... times `radius`; 0 = no fit
+  unsigned levels = 7;       ///< balls of radius 1, 2^0.35, 2^0.7, ... times `radius`; 0 = no fit
   double misfit = 1.2;       ///< variance of mean heights about the quadric, in those that noise explains, up to which it is believed, > 0
+  double pooling = 1.0;      ///< misfits are means over the fits in a ball of so many radii, >= 0; 0 = each fit by itself
   unsigned merge_above = 192; ///< a ball that holds more points is represented by between half as many and as many means, >= 16
 
   /** Threads, 0 = all that the process may use. The result does not depend on it. */
@@ -28,7 +29,7 @@ validate(const QuadricFitParameters& parameters);
  *
  * On a smooth surface a quadric averages over a wider ball than planes can: its error grows with the fourth power of the radius. Data of a
  * fit are means of a few points each. Where the quadric is the surface, means differ from it by as much as the points of each mean
- * differ among themselves (the test of lack of fit), and the filtered normals change evenly along it. Radii grow while both hold; at the
+ * differ among themselves (the test of lack of fit, its statistic averaged over the fits nearby), and the filtered normals change evenly along it. Radii grow while both hold; at the
  * first that fails, or next to an edge at once, points stay where the narrower ball, or the filter, left them. Both tests pass by degrees,
  * so that no seam arises.
  *
