@@ -7,6 +7,7 @@
 
 #include "../check_range.h"
 #include "fitted_quadric.h"
+#include "pooled_misfit.h"
 #include "quadric_data.h"
 
 #include <algorithm>
@@ -18,13 +19,24 @@ namespace {
 
 /** Widest ball, in box diagonals: beyond, the sixth order draws a sphere inwards. */
 constexpr double kWidest = 0.17;
+/** From one radius to the next, and at least to the widest. */
+const double kGrowth = std::pow(2.0, 0.35);
+constexpr double kLeastGrowth = 1.05;
 /** Points of the narrowest ball for each of its fits. */
 constexpr double kPointsPerFit = 40.0;
 constexpr std::size_t kMostShare = 64;
-/** Misfit at which a quadric counts for nothing, above that up to which it counts fully; unevenness likewise, from 1 on. */
-constexpr double kMisfitRange = 0.3, kUnevenRange = 0.4;
-/** The radius of the ball in those of curvature up to which a quadric counts fully, and from which it counts for nothing. */
-constexpr double kBending = 0.85, kBendingRange = 0.3;
+/** Least variance of heights, in that of the noise, which is known to a tenth or so: where the filter followed the noise, heights above its
+ * result are smaller. */
+constexpr double kLeastVariance = 0.85;
+/** Misfit at which a quadric counts for nothing, above that up to which it counts fully. */
+constexpr double kMisfitRange = 0.3;
+/** So much more a fit may have by itself than together with those about it; from kEdgeMisfit on it is left out of their means. */
+constexpr double kOwnMisfit = 0.5, kEdgeMisfit = 2.2;
+/** Unevenness up to which a quadric counts fully, and above that until it counts for nothing. */
+constexpr double kUneven = 1.5, kUnevenRange = 0.4;
+/** The radius of the ball in those of curvature, likewise. From kBent on edges begin to look like tubes: the misfit may be less then, by up
+ * to kStricter. */
+constexpr double kBending = 1.2, kBendingRange = 0.3, kBent = 0.85, kStricter = 0.2;
 /** The narrowest quadrics average hardly more than the filter did: they move points this share of the way. */
 constexpr double kFirstShare = 0.6;
 /** Least cosine of a point's normal with that of the fit that serves it. */
@@ -64,18 +76,28 @@ public:
   bool
   run(unsigned level)
   {
-    const double radius = p_.radius * std::pow(2.0, 0.5 * level);
+    const double wanted = p_.radius * std::pow(kGrowth, level), radius = std::min(wanted, kWidest);
+    if (wanted > kWidest && kLeastGrowth * wanted > kGrowth * kWidest)
+      return false;
     std::vector<std::uint32_t> probes;
     for (std::size_t f = 0; f < belief_.size(); ++f)
       if (belief_[f] > 0.0)
         probes.push_back(static_cast<std::uint32_t>(f));
-    if (probes.empty() || !(radius <= kWidest) || !data_.average(radius))
+    if (probes.empty() || !data_.average(radius))
       return false;
     frames_ = QueryFrames(data_, placesOf(probes));
     const QuadricSums sums = data_.sums(frames_, radius);
+    std::vector<FittedQuadric> quadrics(probes.size());
+    parallelBlocks(probes.size(), kFitsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
+      const double least = kLeastVariance * p_.noise * p_.noise / (radius * radius);
+      for (std::size_t q = begin; q < end; ++q)
+        if (!solveQuadric(sums.of(q), sums.row(), least, quadrics[q]))
+          belief_[probes[q]] = 0.0;
+    });
+    judge(probes, quadrics, radius);
     parallelBlocks(probes.size(), kFitsPerTask, threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q)
-        useFit(sums, q, probes[q], radius, level == 0 ? kFirstShare : 1.0);
+        useFit(quadrics[q], q, probes[q], radius, level == 0 ? kFirstShare : 1.0);
     });
     return true;
   }
@@ -103,19 +125,29 @@ private:
     return places;
   }
 
+  /** Lowers the belief in each fit by its tests. */
   void
-  useFit(const QuadricSums& sums, std::size_t q, std::size_t fit, double radius, double share)
+  judge(const std::vector<std::uint32_t>& probes, const std::vector<FittedQuadric>& quadrics, double radius)
   {
-    FittedQuadric quadric;
-    const double least = 0.64 * p_.noise * p_.noise / (radius * radius); // the noise is known to a fifth
-    if (!solveQuadric(sums.of(q), sums.row(), least, quadric)) {
-      belief_[fit] = 0.0;
-      return;
+    std::vector<double> own(probes.size(), 2.0 * kEdgeMisfit);
+    for (std::size_t q = 0; q < probes.size(); ++q)
+      if (belief_[probes[q]] > 0.0)
+        own[q] = quadrics[q].misfit;
+    const std::vector<double> pooled = p_.pooling > 0.0 ? poolMisfits(frames_.origin, own, kEdgeMisfit, p_.pooling * radius, threads_) : own;
+    for (std::size_t q = 0; q < probes.size(); ++q) {
+      const double bent = 1.0 - falling(quadrics[q].bending, kBent, kBending);
+      const double misfit = std::max(pooled[q], own[q] - kOwnMisfit) + kStricter * bent;
+      double& belief = belief_[probes[q]];
+      belief *= falling(misfit, p_.misfit, p_.misfit + kMisfitRange) * falling(quadrics[q].unevenness, kUneven, kUneven + kUnevenRange) *
+                falling(quadrics[q].bending, kBending, kBending + kBendingRange);
+      if (belief < 1e-3)
+        belief = 0.0;
     }
-    belief_[fit] *= falling(quadric.misfit, p_.misfit, p_.misfit + kMisfitRange) * falling(quadric.unevenness, 1.0, 1.0 + kUnevenRange) *
-                    falling(quadric.bending, kBending, kBending + kBendingRange);
-    if (belief_[fit] < 1e-3)
-      belief_[fit] = 0.0;
+  }
+
+  void
+  useFit(const FittedQuadric& quadric, std::size_t q, std::size_t fit, double radius, double share)
+  {
     const std::size_t end = std::min(data_.points().size(), (fit + 1) * share_);
     for (std::size_t k = fit * share_; k < end && belief_[fit] > 0.0; ++k)
       moveOne(quadric, frames_.of(q), k, radius, belief_[fit] * share);
@@ -166,6 +198,7 @@ validate(const QuadricFitParameters& p)
   checkRange("quadric noise", p.noise, p.noise >= 0.0, ">= 0");
   checkRange("quadric spacing", p.spacing, p.spacing >= 0.0, ">= 0, 0 = estimated");
   checkRange("quadric misfit", p.misfit, p.misfit > 0.0, "> 0");
+  checkRange("quadric pooling", p.pooling, p.pooling >= 0.0, ">= 0");
   checkRange("quadric merge_above", p.merge_above, p.merge_above >= 16, ">= 16");
 }
 

@@ -34,6 +34,7 @@ const Ablation kAblations[] = {
     {"no-steered-fit", "the fine scale as GPF leaves it", [](DenoiseParameters& p) { p.steered.passes = 0; }},
     {"no-thin-parts", "no finest scale", [](DenoiseParameters& p) { p.thin_parts = false; }},
     {"no-quadric-fit", "smooth parts as planes leave them", [](DenoiseParameters& p) { p.quadric.levels = 0; }},
+    {"no-pooled-misfit", "each quadric judged by its own misfit", [](DenoiseParameters& p) { p.quadric.pooling = 0; }},
     {"no-limit", "moves of any length",
      [](DenoiseParameters& p) { p.max_move = std::numeric_limits<double>::infinity(); }},
     {"keep-outliers", "outliers stay among the data of the others",
