@@ -65,7 +65,8 @@ settleBelow(const NoiseProbes& probes, double spacing, NoiseProbes::Centers& cen
 {
   constexpr double kReach = 2.5;      // spacings; first patches are narrower than stronger noise
   constexpr double kBelow = 0.45;     // patches so narrow show ...
-  constexpr double kTwoSheets = 1.16; // ... 1.22 times that or more on one sheet, 1.1 times or less where two were taken for one
+  constexpr double kTwoSheets = 1.16; // ... 1.21 times that or more on one sheet, 1.1 times or less where two were taken for one ...
+  constexpr double kFewPoints = 1.19; // ... or, of the few points that are nearest, 1.17
   constexpr double kFromBelow = 0.35, kHolds = 1.1;
   if (!(noise > 0.0 && noise < kReach * spacing))
     return;
@@ -73,7 +74,7 @@ settleBelow(const NoiseProbes& probes, double spacing, NoiseProbes::Centers& cen
   if (noise > spacing)
     probes.measure(below, kBelow * noise, NoiseProbes::kCoarseStep); // lays them onto their sheets
   const double seen = probes.measure(below, kBelow * noise, NoiseProbes::kCoarseStep).noise;
-  if (!(seen > 0.0 && seen < kTwoSheets * kBelow * noise))
+  if (!(seen > 0.0 && seen < (noise < spacing ? kFewPoints : kTwoSheets) * kBelow * noise))
     return;
   below = probes.evenCenters();
   double lower = kFromBelow * noise;
@@ -110,9 +111,9 @@ measureNoise(const NoiseProbes& probes, double spacing)
     return 0.0;
   const std::vector<NoiseReading> patches = probes.readEach(centers, noise, 1);
   const NoiseReading reading = quietTenth(patches);
-  noise = reading.noise * shapeFactor(reading);
-  const double of_one_sheet = noiseOfOneSheet(probes, centers, noise, reading.kurtosis);
-  return of_one_sheet < noise ? of_one_sheet : noiseOverAll(probes, centers, noise, patches);
+  const double quietest = reading.noise * shapeFactor(reading);
+  const double of_one_sheet = noiseOfOneSheet(probes, centers, quietest, reading.kurtosis);
+  return of_one_sheet < quietest ? of_one_sheet : noiseOverAll(probes, centers, noise, patches, quietest);
 }
 
 } // namespace

@@ -107,28 +107,29 @@ NoiseProbes::readEach(Centers& centers, double guess, std::size_t step) const
 }
 
 std::vector<NoiseLevel>
-NoiseProbes::settleEach(const Centers& centers, double guess, std::size_t step) const
+NoiseProbes::settleEach(const Centers& centers, const std::vector<NoiseReading>& at_guess, double guess, std::size_t step) const
 {
-  return ofEach<NoiseLevel, Scratch>(
-      centers, step, threads_, [&](const Center& center, Scratch& scratch) { return settleAt(center, guess, scratch); });
+  return ofEach<NoiseLevel, Scratch>(centers, step, threads_, [&](const Center& center, Scratch& scratch) {
+    return settleAt(center, at_guess[static_cast<std::size_t>(&center - centers.data())], guess, scratch);
+  });
 }
 
 NoiseLevel
-NoiseProbes::settleAt(Center center, double guess, Scratch& scratch) const
+NoiseProbes::settleAt(Center center, NoiseReading reading, double guess, Scratch& scratch) const
 {
   constexpr int kRounds = 9;
   constexpr double kSettled = 0.05, kMostTrimmed = 0.06, kHighest = 3.5, kLowest = 0.3; // guesses
   double noise = guess;
   for (int round = 0; round < kRounds && noise < kHighest * guess && noise > kLowest * guess; ++round) {
-    const NoiseReading reading = measureAt(center, noise, scratch);
     const double growth = reading.level / noise;
     if (!std::isfinite(growth) || !(growth > 0.0))
       break;
     if (std::abs(growth - 1.0) < kSettled)
-      return {center, reading.trimmed < kMostTrimmed ? reading.level : 0.0, reading.reach};
+      return {center, reading.trimmed < kMostTrimmed ? reading.level : 0.0, reading.reach, reading.kurtosis};
     noise *= growth * std::sqrt(growth);
+    reading = measureAt(center, noise, scratch);
   }
-  return {center, 0.0, 0.0};
+  return {center, 0.0, 0.0, 0.0};
 }
 
 std::vector<PatchHeights>

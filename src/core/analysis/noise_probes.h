@@ -29,8 +29,9 @@ quietTenth(std::vector<NoiseReading> patches);
 /** \brief A patch as wide as its own noise asks for. */
 struct NoiseLevel {
   std::array<float, 3> center{};
-  double noise = 0.0; ///< 0: none was found
-  double reach = 0.0; ///< radius of the patch
+  double noise = 0.0;    ///< 0: none was found
+  double reach = 0.0;    ///< radius of the patch
+  double kurtosis = 0.0; ///< of its heights, which are trimmed
 };
 
 /** \brief A patch and the heights of points about it. */
@@ -67,9 +68,10 @@ public:
     return quietTenth(readEach(centers, guess, step));
   }
 
-  /** \brief Levels of patches that are each as wide as their own noise asks for; of every `step`th centre, from `guess` on. */
+  /** \brief Levels of patches that are each as wide as their own noise asks for; of every `step`th centre, from what all of them showed
+   * at `guess` on. */
   std::vector<NoiseLevel>
-  settleEach(const Centers& centers, double guess, std::size_t step) const;
+  settleEach(const Centers& centers, const std::vector<NoiseReading>& at_guess, double guess, std::size_t step) const;
 
   /** \brief Wider patches of every `step`th centre with the heights of all points about them, in units of the guess and up to
    * kPooledHeight. */
@@ -79,7 +81,7 @@ public:
 private:
   struct Scratch;
   NoiseLevel
-  settleAt(Center center, double guess, Scratch& scratch) const;
+  settleAt(Center center, NoiseReading reading, double guess, Scratch& scratch) const;
   PatchHeights
   heightsAt(const Center& center, double guess, Scratch& scratch) const;
   NoiseReading

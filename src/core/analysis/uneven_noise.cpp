@@ -16,8 +16,13 @@ constexpr double kHighestLevel = 1.4; // medians; a patch that took in another p
 constexpr std::size_t kStep = 2;
 constexpr double kMostTrimmed = 0.06;
 /** At one guess patches differ less than they do, each settled at its own width. On even noise these reach 0.5 only with a spread below. */
-constexpr double kHintOfCoherence = 0.35, kLeastCoherence = 0.5, kLeastSpread = 1.22;
-constexpr double kLeastPart = 0.55; ///< of the patches, to speak for the cloud
+constexpr double kHintOfCoherence = 0.25, kCoherent = 0.5, kMostCoherent = 0.65, kLeastSpread = 1.22;
+/** Of the patches, to speak for the cloud; fewer do if they agree well. */
+constexpr double kLeastPart = 0.55, kLeastCoherentPart = 0.25;
+/** Levels that agree less still tell uneven noise if the heights in the loudest third are as normal as in the others: their kurtosis is
+ * 2.45 on normal noise and 1.8 to 2.3 across edges and thin walls. The estimate then goes most of the way to the root mean square. */
+constexpr double kLeastWeakSpread = 1.2, kWeakCoherence = 0.25, kWeakEvidence = 0.62;
+constexpr double kLeastLoudKurtosis = 2.34, kKurtosisOfCoherence = 0.3; ///< the latter less for each unit of coherence above the weak
 
 double
 middleOf(std::vector<double>& values, double quantile)
@@ -76,6 +81,32 @@ correlation(const std::vector<std::pair<double, double>>& pairs)
   return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
+/** Of the loudest third of levels that are sorted. */
+double
+meanKurtosisOfLoudest(const std::vector<NoiseLevel>& levels)
+{
+  const std::size_t first = levels.size() - std::max<std::size_t>(1, levels.size() / 3);
+  double sum = 0.0;
+  for (std::size_t k = first; k < levels.size(); ++k)
+    sum += levels[k].kurtosis;
+  return sum / static_cast<double>(levels.size() - first);
+}
+
+/** How sure it is that the levels differ because the noise does, 0 to 1. `hint`: levels at one guess */
+double
+evidenceOfUnevenness(const LevelVariation& hint, const LevelVariation& settled, double part)
+{
+  if (!(settled.spread >= kLeastWeakSpread))
+    return 0.0;
+  const bool most_coherent = settled.coherence >= kMostCoherent && part >= kLeastCoherentPart;
+  const bool coherent = settled.coherence >= kCoherent && part >= kLeastPart && settled.spread >= kLeastSpread;
+  if (most_coherent || coherent)
+    return std::min(1.0, kWeakEvidence + (1.0 - kWeakEvidence) * (settled.coherence - kCoherent) / (kMostCoherent - kCoherent));
+  const double coherence = 0.5 * (hint.coherence + settled.coherence) - kWeakCoherence;
+  const bool weak = coherence >= 0.0 && settled.loud_kurtosis >= kLeastLoudKurtosis - kKurtosisOfCoherence * coherence;
+  return weak && part >= kLeastPart ? kWeakEvidence : 0.0;
+}
+
 } // namespace
 
 LevelVariation
@@ -92,6 +123,10 @@ levelVariation(const std::vector<NoiseLevel>& all)
   variation.count = levels.size();
   if (levels.empty())
     return variation;
+  std::sort(levels.begin(), levels.end(), [](const NoiseLevel& a, const NoiseLevel& b) {
+    return a.noise < b.noise || (a.noise == b.noise && a.kurtosis < b.kurtosis);
+  });
+  variation.loud_kurtosis = meanKurtosisOfLoudest(levels);
   const double median = middleOf(values, 0.5);
   variation.spread = median / middleOf(values, 0.1);
   std::vector<double> logarithms;
@@ -112,18 +147,21 @@ levelVariation(const std::vector<NoiseLevel>& all)
 }
 
 double
-noiseOverAll(const NoiseProbes& probes, const NoiseProbes::Centers& centers, double noise, const std::vector<NoiseReading>& patches)
+noiseOverAll(const NoiseProbes& probes, const NoiseProbes::Centers& centers, double guess, const std::vector<NoiseReading>& patches,
+             double noise)
 {
   std::vector<NoiseLevel> levels;
   for (std::size_t k = 0; k < patches.size(); ++k)
-    levels.push_back({centers[k], patches[k].trimmed < kMostTrimmed ? patches[k].level : 0.0, patches[k].reach});
-  if (!(levelVariation(levels).coherence >= kHintOfCoherence))
+    levels.push_back({centers[k], patches[k].trimmed < kMostTrimmed ? patches[k].level : 0.0, patches[k].reach, patches[k].kurtosis});
+  const LevelVariation hint = levelVariation(levels);
+  if (!(hint.coherence >= kHintOfCoherence))
     return noise;
-  levels = probes.settleEach(centers, noise, kStep);
+  levels = probes.settleEach(centers, patches, guess, kStep);
   const LevelVariation settled = levelVariation(levels);
-  const bool uneven = settled.coherence >= kLeastCoherence && settled.spread >= kLeastSpread &&
-                      static_cast<double>(settled.count) >= kLeastPart * static_cast<double>(levels.size());
-  return uneven ? std::max(noise, settled.rms) : noise;
+  if (!(settled.rms > noise))
+    return noise;
+  const double part = static_cast<double>(settled.count) / static_cast<double>(levels.size());
+  return noise * std::pow(settled.rms / noise, evidenceOfUnevenness(hint, settled, part));
 }
 
 } // namespace pcl_gpf

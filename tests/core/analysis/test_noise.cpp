@@ -84,6 +84,31 @@ denseAtOneEnd(std::size_t count, double noise, std::uint64_t seed)
   });
 }
 
+/** \brief A unit square with bosses 0.03 high, as wide as they are high up to five times as wide. */
+Shape
+bosses(std::size_t count, double noise, std::uint64_t seed)
+{
+  constexpr double kHeight = 0.03, kLength = 0.4;
+  constexpr double kFrom[] = {0.05, 0.14, 0.24, 0.36, 0.5}, kWidth[] = {0.03, 0.04, 0.06, 0.08, 0.15};
+  return sampleShape(count, noise, seed, [&](SplitMix64& random, Vector3& point, Vector3& normal) {
+    const auto boss = static_cast<std::size_t>(5 * random.uniform());
+    const double girth = 2 * (kLength + kWidth[boss]);
+    if (random.uniform() < 5 * girth * kHeight / (1 + 5 * girth * kHeight)) {
+      const double along = girth * random.uniform(), side = random.uniform() < 0.5 ? 0.0 : 1.0;
+      const bool lengthwise = along < 2 * kLength;
+      point = lengthwise ? Vector3{kFrom[boss] + side * kWidth[boss], 0.1 + 0.5 * along, kHeight * random.uniform()}
+                         : Vector3{kFrom[boss] + 0.5 * (along - 2 * kLength), 0.1 + side * kLength, kHeight * random.uniform()};
+      normal = lengthwise ? Vector3{2 * side - 1, 0, 0} : Vector3{0, 2 * side - 1, 0};
+      return;
+    }
+    point = {random.uniform(), random.uniform(), 0};
+    normal = {0, 0, 1};
+    for (std::size_t k = 0; k < 5; ++k)
+      if (point[1] > 0.1 && point[1] < 0.1 + kLength && point[0] > kFrom[k] && point[0] < kFrom[k] + kWidth[k])
+        point[2] = kHeight;
+  });
+}
+
 struct NoiseCase {
   const char* name;
   Maker make;
@@ -209,6 +234,22 @@ TEST(Noise, thatVariesOverTheSurfaceIsItsRootMeanSquare)
       }
       const double rms = std::sqrt(squares / static_cast<double>(shape.size()));
       EXPECT_NEAR(noiseOf(turned(shape)) / rms, 1.0, 0.2) << c.name << " " << percent;
+    }
+}
+
+/** Walls lower than the noise stay between floor and roof if the noise runs along the normals: layers thinner than the noise. */
+TEST(Noise, alongNormalsIsNotThatOfWallsLowerThanIt)
+{
+  for (const double sigma : {0.005, 0.015, 0.021})
+    for (const std::uint64_t seed : {1u, 2u}) {
+      Shape shape = bosses(33490, 0, seed);
+      SplitMix64 random(7);
+      for (std::size_t i = 0; i < shape.size(); ++i) {
+        const double step = sigma * random.normal();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          shape.points[i][axis] += step * shape.normals[i][axis];
+      }
+      EXPECT_NEAR(noiseOf(turned(shape)) / sigma, 1.0, 0.2) << sigma << " " << seed;
     }
 }
 

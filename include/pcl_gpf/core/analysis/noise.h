@@ -12,8 +12,8 @@ namespace pcl_gpf {
  *
  * Within a fifth on smooth and on sharp-edged shapes for noise from well below the spacing up to 3 % of the diagonal, normal or even, at
  * any density and with 5 % of outliers. Two sheets whose noise overlaps are told from one by the heights of many patches together. Too high
- * where walls of many thicknesses are thinner than about twice the noise; too low where the noise runs along the normal only and walls
- * lower than it are many. Of noise that varies smoothly over the surface it is the root mean square, else that of the quietest parts.
+ * where walls of many thicknesses are thinner than about twice the noise; too low where the noise runs along the normal only and is much
+ * higher than the parts. Of noise that varies smoothly over the surface it is the root mean square, else that of the quietest parts.
  *
  * \param[in] points in any one unit; the result is in the same
  * \param[in] spacing of the points (estimateSpacing())
