@@ -22,7 +22,7 @@ struct FieldSum {
   std::size_t first;
   Lanes3<D> query, query_normal;
   Bell<D> agreement;
-  V radius_sq, count, weight_sum, first_sum, second_sum;
+  V sign, radius_sq, count, weight_sum, first_sum, second_sum;
 
   HWY_INLINE
   FieldSum(const FieldSums& arguments, D tag, std::size_t q)
@@ -32,6 +32,7 @@ struct FieldSum {
   , query(loadQueries(tag, arguments.queries, q))
   , query_normal(kNormals ? loadQueries(tag, arguments.query_normals, q) : zero3(tag))
   , agreement(tag, 1.0, arguments.normal_falloff)
+  , sign(hn::Set(tag, arguments.along_normals ? -0.0f : 0.0f))
   , radius_sq(loadRadiusSq(tag, arguments.radius, q))
   , count(hn::Zero(tag))
   , weight_sum(hn::Zero(tag))
@@ -47,12 +48,15 @@ struct FieldSum {
     const auto inside = hn::Lt(dot<D>(offset, offset), radius_sq);
     V weight = hn::IfThenElseZero(inside, hn::Set(d, 1.0f));
     count = hn::Add(count, weight);
+    V first_value = datum(d, a.first_field);
     if (kNormals) {
-      const V deviation = hn::Sub(hn::Set(d, 1.0f), hn::Abs(dot<D>(loadDatum(d, a.data_normals, datum), query_normal)));
+      const V cosine = dot<D>(loadDatum(d, a.data_normals, datum), query_normal);
+      const V deviation = hn::Sub(hn::Set(d, 1.0f), hn::Abs(cosine));
       weight = hn::Mul(weight, agreement(d, hn::Mul(deviation, deviation)));
+      first_value = hn::Xor(first_value, hn::And(cosine, sign));
     }
     weight_sum = hn::Add(weight_sum, weight);
-    first_sum = mulAdd(weight, datum(d, a.first_field), first_sum);
+    first_sum = mulAdd(weight, first_value, first_sum);
     second_sum = mulAdd(weight, datum(d, a.second_field), second_sum);
   }
 

@@ -92,6 +92,7 @@ struct FieldSums {
   Vectors<float> queries, query_normals, data, data_normals;
   Radius<float> radius;
   float normal_falloff = 0;            ///< 1 / (1 - cos angle); 0: all weights are 1 and normals are not read
+  bool along_normals = false;          ///< first_field is measured along the data's normals: turned where the query's is opposite
   const float* first_field = nullptr;
   const float* second_field = nullptr;
   float* count = nullptr;              ///< number of data in reach

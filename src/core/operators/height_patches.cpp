@@ -85,6 +85,7 @@ Balls::weigh(const SoaBuffer& normals)
 {
   fields_.data_normals = {normals.x.data(), normals.y.data(), normals.z.data()};
   fields_.query_normals = probes_.normals.vectors();
+  fields_.along_normals = true;
   fields_.normal_falloff = static_cast<float>(1.0 / (1.0 - std::cos(kFaceAngle)));
 }
 
@@ -130,7 +131,7 @@ averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_norma
   markEnd(positions);
   Balls balls(probes, positions.view(), radius, threads);
   balls.weigh(some_normals.size() > 0 ? some_normals : all_normals);
-  const FieldTotals powers = balls.sum(heights, squares), lengths = with_sizes ? balls.sum(sizes, squares) : FieldTotals(0);
+  const FieldTotals powers = balls.sum(heights, squares), lengths = with_sizes ? balls.sum(heights, sizes) : FieldTotals(0);
   HeightPatches patches;
   for (std::size_t k = 0; k < probes.size; ++k) {
     const float weight = std::max(1.0f, powers.weight[k]);
@@ -140,7 +141,7 @@ averageHeights(PointsView input, SoaBuffer positions, const SoaBuffer& all_norma
     patches.mean.push_back(powers.first[k] / weight);
     patches.mean_square.push_back(powers.second[k] / weight);
     if (with_sizes)
-      patches.mean_size.push_back(lengths.first[k] / weight);
+      patches.mean_size.push_back(lengths.second[k] / weight);
   }
   return patches;
 }

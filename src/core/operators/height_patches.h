@@ -32,7 +32,7 @@ public:
   /** \param[in] data followed by a padded element that is far away */
   Balls(const Probes& probes, PointsView data, double radius, std::size_t threads);
 
-  /** Lets data weigh as much as their normals agree with the probe's. */
+  /** Lets data weigh as much as their normals agree with the probe's, whatever their signs; the first field is one along these normals. */
   void
   weigh(const SoaBuffer& normals);
 

@@ -294,9 +294,9 @@ struct MomentsCase : KernelCase<float> {
 };
 
 struct FieldCase : KernelCase<float> {
-  bool normals = false;
+  bool normals = false, along = false;
 
-  std::string name() const { return std::string("field sums") + (normals ? " normals" : ""); }
+  std::string name() const { return std::string("field sums") + (normals ? " normals" : "") + (along ? " along them" : ""); }
   std::size_t channels() const { return 4; }
   void
   run(const kernels::KernelSet& set, const KernelInput<float>& in, KernelOutput<float>& out) const
@@ -308,6 +308,7 @@ struct FieldCase : KernelCase<float> {
     a.data_normals = in.data_normals.vectors();
     a.radius = radius(in);
     a.normal_falloff = normals ? kFalloff : 0.0f;
+    a.along_normals = along;
     a.first_field = in.weight.data();
     a.second_field = in.density.data();
     a.count = out.channel(0);
@@ -321,7 +322,8 @@ struct FieldCase : KernelCase<float> {
   {
     const double weight = normals ? bell((1 - std::abs(p.cosine())) * kFalloff) : 1.0;
     const double scale = normals ? 8.0 : 1.0; // the fourth power and the cancellation in 1 - |cos| multiply rounding
-    return {{1, 1}, {weight, scale}, {weight * p.weight, scale * std::abs(p.weight)}, {weight * p.density, scale * std::abs(p.density)}};
+    const double turned = along && p.cosine() < 0 ? -p.weight : p.weight;
+    return {{1, 1}, {weight, scale}, {weight * turned, scale * std::abs(p.weight)}, {weight * p.density, scale * std::abs(p.density)}};
   }
 
 private:
@@ -544,6 +546,8 @@ forEveryCase(const Visit& visit)
           visit(BilateralCase{{per_query}, sign_invariant, weighted});
         visit(MomentsCase{{per_query}, weighted});
         visit(FieldCase{{per_query}, weighted});
+        if (weighted)
+          visit(FieldCase{{per_query}, true, true});
         visit(SteeredCase{{per_query}, weighted});
       }
       if (!per_query)
