@@ -28,10 +28,10 @@ ScaleRules
 rulesOf(FilterScale filter_scale)
 {
   switch (filter_scale) {
-  case FilterScale::Coarse: return {{4.3, 2.0}, {8.8, 6.3}, {11.8, 8.0}};
+  case FilterScale::Coarse: return {{4.3, 2.2}, {8.8, 6.3}, {11.8, 8.0}};
   case FilterScale::Fine: return {{2.1, 2.8, true}, {3.05, 3.2, true}, {4.5, 6.0, true}};
   case FilterScale::Finest: return {{1.9, 1.8, true}, {2.5, 2.2, true}, {3.8, 3.1, true}};
-  default: return {{4.0, 2.0}, {8.0, 6.0}, {11.0, 8.0}};
+  default: return {{4.0, 2.2}, {8.0, 6.0}, {11.0, 8.0}};
   }
 }
 
