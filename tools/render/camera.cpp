@@ -36,10 +36,8 @@ densePart(const std::vector<Position>& points)
     box.add(p[0], p[1], p[2]);
   const BoundingBox dense = denseBox(box, points.size(), [&points](std::size_t i, std::size_t axis) { return points[i][axis]; });
   std::vector<Position> inside;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(inside), [&dense](const Position& p) {
-    return p[0] >= dense.min[0] && p[1] >= dense.min[1] && p[2] >= dense.min[2] && p[0] <= dense.max[0] && p[1] <= dense.max[1] &&
-           p[2] <= dense.max[2];
-  });
+  std::copy_if(points.begin(), points.end(), std::back_inserter(inside),
+               [&dense](const Position& p) { return dense.contains(p[0], p[1], p[2]); });
   return inside.empty() ? points : inside;
 }
 

@@ -62,10 +62,7 @@ refuseFarPoint(const BoundingBox& all, const BoundingBox& dense, std::size_t cou
   double furthest_distance = -1.0;
   for (std::size_t i = 0; i < count; ++i) {
     const double p[3] = {coordinate(i, 0), coordinate(i, 1), coordinate(i, 2)};
-    bool within = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      within = within && p[axis] >= dense.min[axis] && p[axis] <= dense.max[axis];
-    if (within)
+    if (dense.contains(p[0], p[1], p[2]))
       inside.add(p[0], p[1], p[2]);
     const double distance = std::hypot(p[0] - dense.min[0], p[1] - dense.min[1], p[2] - dense.min[2]);
     if (distance > furthest_distance) {

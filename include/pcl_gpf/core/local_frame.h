@@ -41,6 +41,12 @@ struct BoundingBox {
     }
     ++count;
   }
+  /** \brief Whether a point lies in the box or on its surface. */
+  bool
+  contains(double x, double y, double z) const
+  {
+    return x >= min[0] && y >= min[1] && z >= min[2] && x <= max[0] && y <= max[1] && z <= max[2];
+  }
   /** \brief Length of the diagonal; 0 when empty or all points coincide; overflow-free for finite boxes. */
   PCL_GPF_CORE_EXPORT double
   diagonal() const;

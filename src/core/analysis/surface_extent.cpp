@@ -48,13 +48,9 @@ densePart(PointsView points)
     box.add(coordinate(i, 0), coordinate(i, 1), coordinate(i, 2));
   const BoundingBox dense = denseBox(box, points.size, coordinate);
   std::vector<std::uint32_t> inside;
-  for (std::size_t i = 0; i < points.size; ++i) {
-    bool within = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      within = within && coordinate(i, axis) >= dense.min[axis] && coordinate(i, axis) <= dense.max[axis];
-    if (within)
+  for (std::size_t i = 0; i < points.size; ++i)
+    if (dense.contains(coordinate(i, 0), coordinate(i, 1), coordinate(i, 2)))
       inside.push_back(static_cast<std::uint32_t>(i));
-  }
   return elementsOf(points, inside);
 }
 

@@ -5,53 +5,15 @@
 #include <pcl_gpf/common/unpack.h>
 #include <pcl_gpf/core/errors.h>
 #include <pcl_gpf/pipeline/consolidation.h>
+#include <pcl_gpf/pipeline/impl/chosen_columns.hpp>
 
 #include <pcl/console/print.h>
 #include <pcl/conversions.h>
 
 #include <array>
-#include <limits>
 #include <utility>
 
 namespace pcl_gpf {
-
-namespace detail {
-
-/** \brief Chosen points in double, with their normals; NaN where a normal is not usable. */
-struct Columns {
-  template <typename PointT>
-  Columns(const pcl::PointCloud<PointT>& cloud, const PackedCloud& chosen)
-  {
-    for (std::size_t i = 0; i < chosen.chosen.size(); ++i) {
-      const PointT& point = cloud[static_cast<std::size_t>(chosen.chosen[i])];
-      const bool usable = chosen.states[i] == PointState::Usable;
-      const float position[3] = {point.x, point.y, point.z}, normal[3] = {point.normal_x, point.normal_y, point.normal_z};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        positions[axis].push_back(static_cast<double>(position[axis]));
-        normals[axis].push_back(usable ? normal[axis] : std::numeric_limits<float>::quiet_NaN());
-      }
-      any_normal = any_normal || usable;
-    }
-  }
-
-  DenoiseInput
-  view() const
-  {
-    DenoiseInput input{positions[0].data(), positions[1].data(), positions[2].data(), positions[0].size()};
-    if (any_normal) {
-      input.normal_x = normals[0].data();
-      input.normal_y = normals[1].data();
-      input.normal_z = normals[2].data();
-    }
-    return input;
-  }
-
-  std::array<std::vector<double>, 3> positions;
-  std::array<std::vector<float>, 3> normals;
-  bool any_normal = false;
-};
-
-} // namespace detail
 
 template <typename PointT> void
 Consolidation<PointT>::process(PointCloud& output)
@@ -121,7 +83,7 @@ Consolidation<PointT>::runStages(PointCloud& output, pcl::PolygonMesh* mesh)
     PCL_WARN("[pcl_gpf::Consolidation::process] None of the %zu points is finite; the output is empty.\n", choice.chosen.size());
     return;
   }
-  const detail::Columns columns(*this->input_, choice);
+  const detail::ChosenColumns columns(*this->input_, choice);
   ConsolidationResult result = consolidate(columns.view(), parameters, progress_);
   writeCloud(choice.chosen, parameters.upsample ? result.upsampled : result.points, output);
   if (mesh)
